@@ -1,0 +1,139 @@
+#include "harness/figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "harness/cli/commands.h"
+#include "harness/embedded.h"
+#include "harness/errors.h"
+#include "harness/execute.h"
+#include "harness/progress.h"
+#include "harness/record_file.h"
+#include "harness/study.h"
+#include "harness/verification.h"
+#include "plots/gnuplot.h"
+
+namespace liebench {
+
+namespace {
+
+struct FigureOptions {
+  std::vector<std::string> only;
+  std::string out = "reproduced";
+  int jobs = default_jobs();
+  bool short_form = false;
+};
+
+// The short form leaves out step sizes below this: seconds instead of minutes, orders less sharp.
+constexpr double shortest_step_of_short_form = 1e-4;
+
+// The runs of all studies of a figure.
+std::vector<RunSpec> figure_runs(const PaperFigure& figure, bool short_form) {
+  std::vector<RunSpec> runs;
+  for (const std::string_view file : figure.studies) {
+    const Study study = read_study(parse_json(embedded_file(file), std::string(file)));
+    for (const RunSpec& run : study.runs)
+      if (run.local || !short_form || run.requested_step_size >= shortest_step_of_short_form * (1.0 - 1e-12))
+        runs.push_back(run);
+  }
+  return runs;
+}
+
+std::string json_lines(const std::vector<Json>& records) {
+  std::string text;
+  for (const Json& record : records) text += record.dump() + '\n';
+  return text;
+}
+
+int figures(const FigureOptions& options) {
+  std::vector<PaperFigure> chosen;
+  std::vector<std::string> names;
+  for (const PaperFigure& figure : paper_figures()) names.emplace_back(figure.name);
+  for (const std::string& name : options.only)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw InputError("--only", fmt::format("unknown figure \"{}\"; allowed: {}{}", name, quoted_list(names),
+                                             suggestion(name, names)));
+  for (const PaperFigure& figure : paper_figures())
+    if (options.only.empty() ||
+        std::find(options.only.begin(), options.only.end(), figure.name) != options.only.end())
+      chosen.push_back(figure);
+  require_gnuplot();
+  const std::filesystem::path out(options.out);
+  require_writable_folder(out);
+
+  std::vector<RunSpec> runs;
+  double work = 0.0;
+  for (const PaperFigure& figure : chosen)
+    for (RunSpec& run : figure_runs(figure, options.short_form)) {
+      work += expected_work(run);
+      runs.push_back(std::move(run));
+    }
+  std::vector<Json> records(runs.size());
+  std::size_t failures = 0;
+  {
+    Progress progress("figures", work);
+    execute(runs, options.jobs, ReferenceCache(), progress, [&](std::size_t index, const Json& record) {
+      if (record.at("outcome") != "ok") ++failures;
+      records[index] = record;
+    });
+  }
+
+  std::map<std::string, std::vector<Json>> by_study;
+  for (std::size_t i = 0; i < runs.size(); ++i) by_study[runs[i].study].push_back(records[i]);
+  for (const PaperFigure& figure : chosen) {
+    const std::vector<Json>& rows = by_study.at(std::string(figure.name));
+    write_whole(out / fmt::format("{}.jsonl", figure.name), json_lines(rows));
+    for (const auto& [name, picture] : draw_paper_figure(figure, rows)) {
+      std::vector<std::filesystem::path> files;
+      for (const char* ending : {"svg", "pdf", "png"})
+        files.push_back(out / fmt::format("{}.{}", name, ending));
+      draw(picture, files);
+    }
+    fmt::print("{}: {} runs, {}\n", figure.name, rows.size(),
+               (out / fmt::format("{}.svg", figure.name)).string());
+  }
+  const std::string note =
+      options.short_form
+          ? fmt::format(
+                "This is the short form: no step size below {} s, so that slopes that settle later "
+                "are not shown.",
+                shortest_step_of_short_form)
+          : "";
+  const Verification verification = verify(by_study, note);
+  write_whole(out / "verification.md", verification.markdown);
+  fmt::print("verification: {} of {} claims confirmed, {}\n", verification.confirmed, verification.claims,
+             (out / "verification.md").string());
+  if (failures > 0)
+    fmt::print("{} of {} runs failed numerically (step size too large); they are marked in the figures\n",
+               failures, runs.size());
+  return options.short_form || verification.confirmed == verification.claims ? 0 : 1;
+}
+
+}  // namespace
+
+void add_figures(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand(
+      "figures", "Reproduce Figures 1 to 4 of the paper: records, pictures and the table of orders");
+  auto options = std::make_shared<FigureOptions>();
+  command->add_option("--only", options->only, "only these figures")
+      ->delimiter(',')
+      ->type_name("figure1,figure3");
+  command->add_option("--out", options->out, "folder for records, pictures and verification.md")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->add_option("--jobs", options->jobs, "runs at a time; the records do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_flag("--short", options->short_form,
+                    fmt::format("leave out step sizes below {} s: seconds instead of minutes",
+                                shortest_step_of_short_form));
+  command->footer(
+      "Examples:\n  liebench figures                          all, into reproduced/\n"
+      "  liebench figures --only figure3 --out /tmp/f3\n"
+      "Exit status 1: a claim of the paper was not confirmed (not with --short); see verification.md.");
+  command->callback([options, &status] { status = figures(*options); });
+}
+
+}  // namespace liebench

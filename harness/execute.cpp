@@ -1,0 +1,95 @@
+#include "harness/execute.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <thread>
+
+#include "harness/errors.h"
+#include "harness/progress.h"
+#include "harness/provenance.h"
+#include "harness/record.h"
+
+namespace liebench {
+
+namespace {
+
+// Runs that differ in nothing but method and grid share one reference, made for the longest of them.
+std::string reference_key(const RunSpec& run) {
+  return std::string(run.problem->name) + run.parameters.dump();
+}
+
+using PreparedProblems = std::map<std::string, std::shared_ptr<const PreparedProblem>>;
+
+PreparedProblems prepare(const std::vector<RunSpec>& runs, const ReferenceCache& cache, Progress& progress) {
+  std::map<std::string, std::pair<const RunSpec*, double>> longest;
+  for (const RunSpec& run : runs) {
+    // Eq. (56) looks at one point beyond the starting values, so at least k + 1 steps.
+    const double duration = run.step_size() * double(run.request.steps + 1);
+    auto& entry = longest.try_emplace(reference_key(run), &run, 0.0).first->second;
+    entry.second = std::max(entry.second, duration);
+  }
+  PreparedProblems prepared;
+  for (const auto& [key, entry] : longest) {
+    const auto message = [&](std::string_view text) { progress.message(std::string(text)); };
+    try {
+      prepared[key] = entry.first->problem->prepare(entry.first->parameters, entry.second, cache, message);
+    } catch (const std::exception& error) {
+      throw MachineError("no reference solution: " + std::string(error.what()));
+    }
+  }
+  return prepared;
+}
+
+}  // namespace
+
+double expected_work(const RunSpec& run) {
+  const double step = run.precision == Precision::extended ? 12.0 : 2.0;
+  return double(run.request.steps) * step * (run.formulation->constraints > 0 ? 2.0 : 1.0) + 1.0;
+}
+
+int default_jobs() {
+  return std::max(1, int(std::thread::hardware_concurrency()));
+}
+
+void execute(const std::vector<RunSpec>& runs, int jobs, const ReferenceCache& cache, Progress& progress,
+             const std::function<void(std::size_t, const Json&)>& take) {
+  const PreparedProblems problems = prepare(runs, cache, progress);
+  const Json origin = provenance();
+  std::vector<std::size_t> order(runs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return expected_work(runs[a]) > expected_work(runs[b]);
+  });
+
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    try {
+      for (std::size_t i = next++; i < order.size(); i = next++) {
+        const RunSpec& run = runs[order[i]];
+        const PreparedProblem& problem = *problems.at(reference_key(run));
+        const RunResult result = problem.run(run.formulation->name, run.precision, run.request);
+        const Json record = make_record(run, result, problem, origin);
+        const std::lock_guard lock(mutex);
+        take(order[i], record);
+        progress.advance(expected_work(run));
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = order.size();
+    }
+  };
+  std::vector<std::jthread> threads;
+  for (int i = 1; i < jobs; ++i) threads.emplace_back(work);
+  work();
+  threads.clear();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace liebench

@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "harness/errors.h"
+#include "harness/heavy_top_runs.h"
+#include "harness/problems.h"
+#include "problems/heavy_top.h"
+
+namespace liebench {
+
+namespace {
+
+std::array<double, 3> vector3(const JsonView& view) {
+  constexpr std::string_view allowed = "a list of 3 finite numbers";
+  if (!view.is_array() || view.size() != 3) view.reject(allowed);
+  return {view[0].number("a finite number"), view[1].number("a finite number"),
+          view[2].number("a finite number")};
+}
+
+std::array<double, 4> quaternion(const JsonView& view) {
+  constexpr std::string_view allowed = "a list of 4 finite numbers w, x, y, z that are not all zero";
+  if (!view.is_array() || view.size() != 4) view.reject(allowed);
+  std::array<double, 4> q{};
+  double squared = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    q[i] = view[i].number("a finite number");
+    squared += q[i] * q[i];
+  }
+  if (!(squared > 0.0)) view.reject(allowed);
+  return q;
+}
+
+// Principal moments or a full matrix; symmetric positive definite.
+HeavyTopParameters::Matrix inertia(const JsonView& view) {
+  constexpr std::string_view allowed =
+      "3 positive principal moments, or a symmetric positive definite 3 x 3 matrix as a list of rows";
+  if (!view.is_array() || view.size() != 3) view.reject(allowed);
+  HeavyTopParameters::Matrix J{};
+  if (view[0].is_array()) {
+    for (std::size_t i = 0; i < 3; ++i) J[i] = vector3(view[i]);
+  } else {
+    const std::array<double, 3> principal = vector3(view);
+    for (std::size_t i = 0; i < 3; ++i) J[i][i] = principal[i];
+  }
+  Eigen::Matrix3d m;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) m(Eigen::Index(i), Eigen::Index(j)) = J[i][j];
+  if (m != m.transpose() || Eigen::LLT<Eigen::Matrix3d>(m).info() != Eigen::Success) view.reject(allowed);
+  return J;
+}
+
+double positive(const JsonView& view) {
+  const double x = view.number("a positive number");
+  if (!(x > 0.0)) view.reject("a positive number");
+  return x;
+}
+
+HeavyTopParameters from_json(const JsonView& view) {
+  HeavyTopParameters p;
+  if (view.has("mass")) p.mass = positive(view["mass"]);
+  if (view.has("inertia")) p.inertia = inertia(view["inertia"]);
+  if (view.has("center_of_mass")) p.center_of_mass = vector3(view["center_of_mass"]);
+  if (view.has("gravity")) p.gravity = vector3(view["gravity"]);
+  if (view.has("orientation")) p.orientation = quaternion(view["orientation"]);
+  if (view.has("angular_velocity")) p.angular_velocity = vector3(view["angular_velocity"]);
+  return p;
+}
+
+Json to_json(const HeavyTopParameters& p) {
+  Json j;
+  j["mass"] = p.mass;
+  j["inertia"] = p.inertia;
+  j["center_of_mass"] = p.center_of_mass;
+  j["gravity"] = p.gravity;
+  j["orientation"] = p.orientation;
+  j["angular_velocity"] = p.angular_velocity;
+  return j;
+}
+
+class HeavyTop final : public PreparedProblem {
+ public:
+  explicit HeavyTop(HeavyTopReference reference) : reference_(std::move(reference)) {}
+
+  RunResult run(std::string_view formulation, Precision precision, const RunRequest& request) const override {
+    const bool extended = precision == Precision::extended;
+    if (formulation == "SO3")
+      return extended ? run_heavy_top<HeavyTopSO3, Extended>(request, reference_)
+                      : run_heavy_top<HeavyTopSO3, double>(request, reference_);
+    if (formulation == "R3xSO3")
+      return extended ? run_heavy_top<HeavyTopR3xSO3, Extended>(request, reference_)
+                      : run_heavy_top<HeavyTopR3xSO3, double>(request, reference_);
+    throw std::logic_error(fmt::format("heavy_top has no formulation \"{}\"", formulation));
+  }
+  std::string reference_method() const override { return reference_.method(); }
+  double reference_error() const override { return reference_.error_estimate(); }
+
+ private:
+  HeavyTopReference reference_;
+};
+
+}  // namespace
+
+ProblemInfo heavy_top_info() {
+  const Json defaults = to_json({});
+  return {.name = "heavy_top",
+          .summary =
+              "rigid body with its tip fixed in uniform gravity (Bruels & Cardona 2010; eqs. (57) and (58))",
+          .formulations = {{"SO3", 0, "rotation about the tip, unconstrained, eq. (57)"},
+                           {"R3xSO3", 3, "free body held at its tip by 3 constraints, index 3, eq. (58)"}},
+          .parameters = {{"mass", "kg", "positive number", defaults["mass"], "m"},
+                         {"inertia", "kg m^2",
+                          "3 principal moments, or a symmetric positive definite 3 x 3 matrix",
+                          defaults["inertia"], "J about the centre of mass, body frame"},
+                         {"center_of_mass", "m", "3 numbers", defaults["center_of_mass"],
+                          "X, from the tip, body frame"},
+                         {"gravity", "m/s^2", "3 numbers", defaults["gravity"], "gamma, inertial frame"},
+                         {"orientation", "", "quaternion w, x, y, z (normalised)", defaults["orientation"],
+                          "R(t_0), body to inertial frame"},
+                         {"angular_velocity", "rad/s", "3 numbers", defaults["angular_velocity"],
+                          "Omega(t_0), body frame"}},
+          .complete =
+              [](const JsonView& view) {
+                view.require_object(
+                    {"mass", "inertia", "center_of_mass", "gravity", "orientation", "angular_velocity"});
+                return to_json(from_json(view));
+              },
+          .prepare = [](const Json& parameters, double duration, const ReferenceCache& cache,
+                        const MessageCallback& message) -> std::shared_ptr<const PreparedProblem> {
+            return std::make_shared<HeavyTop>(
+                HeavyTopReference::load_or_build(from_json({parameters, ""}), duration, cache, message));
+          }};
+}
+
+}  // namespace liebench

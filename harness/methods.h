@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/strict_json.h"
+#include "integrators/option.h"
+
+// The integrators of integrators/list.h, seen from the harness: names and options, and options from and to
+// JSON.
+
+namespace liebench {
+
+struct MethodInfo {
+  std::string_view name;
+  std::string_view summary;
+  std::span<const OptionInfo> options;
+};
+
+const std::vector<MethodInfo>& methods();
+
+// The checked value of one option. Throws InputError.
+OptionValue option_value(const OptionInfo& info, const JsonView& view);
+OptionValue option_default(const OptionInfo& info);
+
+// What an option takes: `an integer from 1 to 4`, `true or false`.
+std::string allowed_values(const OptionInfo& info);
+
+// All options in the order of the method's list.
+Json options_to_json(const MethodInfo& method, const OptionValues& values);
+
+}  // namespace liebench

@@ -1,0 +1,295 @@
+#include "harness/order_fit.h"
+
+#include <ceres/ceres.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace liebench {
+namespace {
+
+constexpr double reference_margin = 30;
+constexpr double floor_margin = 30;
+constexpr double strict_tolerance = 0.05;
+constexpr double loose_tolerance = 0.15;
+constexpr double least_slope = 0.5;
+constexpr double dip_factor = 0.9;
+constexpr double secant_factor = 1.5;
+constexpr double span_factor = 2.5;
+constexpr std::size_t points_per_dip = 5;
+constexpr double loss_scale = 0.05;
+
+struct LogPoint {
+  double x;  // log h
+  double y;  // log e
+  double h;
+};
+
+using LogPoints = std::span<const LogPoint>;
+
+double slope_between(const LogPoint& a, const LogPoint& b) {
+  return (b.y - a.y) / (b.x - a.x);
+}
+
+double median(std::vector<double> values) {
+  const std::size_t middle = values.size() / 2;
+  std::ranges::sort(values);
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+// Theil-Sen: the median of the slopes of all pairs; a quarter of the points may be arbitrarily wrong.
+double median_slope(LogPoints points) {
+  std::vector<double> slopes;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = i + 1; j < points.size(); ++j) slopes.push_back(slope_between(points[i], points[j]));
+  }
+  return median(std::move(slopes));
+}
+
+struct Window {
+  std::size_t first = 0;  // index of the smallest step size
+  std::size_t count = 0;
+  double slope = 0;              // median slope
+  std::vector<LogPoint> on_law;  // the points that are no dips
+  double tolerance = 0;
+};
+
+// The points of `candidate` that are no dips below the law y = offset + slope x, or nothing where the dips
+// are at an end, adjacent, or too many.
+std::optional<std::vector<LogPoint>> without_dips(LogPoints candidate, double slope) {
+  std::vector<double> offsets;
+  for (const LogPoint& point : candidate) offsets.push_back(point.y - slope * point.x);
+  const double threshold = median(offsets) + std::log(dip_factor);
+  std::vector<LogPoint> kept;
+  bool previous_is_dip = true;  // so that a dip at the first place counts as adjacent
+  for (std::size_t i = 0; i < candidate.size(); ++i) {
+    const bool is_dip = offsets[i] < threshold;
+    if (is_dip && (previous_is_dip || i + 1 == candidate.size())) return std::nullopt;
+    if (!is_dip) kept.push_back(candidate[i]);
+    previous_is_dip = is_dip;
+  }
+  if (points_per_dip * (candidate.size() - kept.size()) > candidate.size()) return std::nullopt;
+  return kept;
+}
+
+// The slope from each point to the nearest one at larger h that is at least secant_factor away, in ascending
+// h.
+std::vector<double> secants(LogPoints points) {
+  std::vector<double> slopes;
+  std::size_t above = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    while (above < points.size() && points[above].x - points[i].x < std::log(secant_factor)) ++above;
+    if (above < points.size()) {
+      slopes.push_back(slope_between(points[i], points[above]));
+    } else if (i + 1 == points.size()) {
+      // The last point is nobody's nearest where another lies just below it.
+      std::size_t below = i;
+      while (below > 0 && points[i].x - points[below].x < std::log(secant_factor)) --below;
+      slopes.push_back(slope_between(points[below], points[i]));
+    }
+  }
+  return slopes;
+}
+
+bool secants_agree(LogPoints points, double slope, double tolerance) {
+  return std::ranges::all_of(secants(points), [&](double s) { return std::abs(s - slope) <= tolerance; });
+}
+
+// Rule 2 for `count` points from index `first` on.
+std::optional<Window> one_power_law(LogPoints points, std::size_t first, std::size_t count,
+                                    double tolerance) {
+  const LogPoints candidate = points.subspan(first, count);
+  if (candidate.back().x - candidate.front().x < std::log(span_factor)) return std::nullopt;
+  const double slope = median_slope(candidate);
+  if (slope < least_slope) return std::nullopt;
+  auto kept = without_dips(candidate, slope);
+  if (!kept || !secants_agree(*kept, slope, tolerance)) return std::nullopt;
+  return Window{first, count, slope, std::move(*kept), tolerance};
+}
+
+// Rule 3: the window with the smallest step sizes: the longest, or with the loose tolerance the shortest.
+std::optional<Window> smallest_window(LogPoints points, double tolerance) {
+  const bool loose = tolerance > strict_tolerance;
+  for (std::size_t first = 0; first + 3 <= points.size(); ++first) {
+    const std::size_t available = points.size() - first;
+    std::optional<Window> found;
+    if (available < 4 && loose) break;
+    for (std::size_t count = std::min<std::size_t>(available, 4); count <= available; ++count) {
+      auto window = one_power_law(points, first, count, tolerance);
+      if (!window) continue;
+      found = std::move(window);
+      if (loose) break;
+    }
+    if (found) return found;
+  }
+  return std::nullopt;
+}
+
+// Rule 4: the log of the level where the `tail_size` smallest step sizes stop falling, if they do.
+std::optional<double> floor_level(LogPoints points, std::size_t tail_size) {
+  const LogPoints tail = points.first(tail_size);
+  // With one point in the tail its neighbour is the window's first: hence `points`.
+  const bool end_is_flat = slope_between(points[0], points[1]) < least_slope;
+  const bool tail_is_flat = tail_size >= 3 && median_slope(tail) < least_slope;
+  if (!end_is_flat && !tail_is_flat) return std::nullopt;
+  // Where the curve turns, not its highest point: round-off that grows as 1/h^2 says little of larger h.
+  const auto lowest =
+      static_cast<std::size_t>(std::ranges::min_element(tail, {}, &LogPoint::y) - tail.begin());
+  std::vector<double> turn;
+  for (std::size_t i = lowest + 1; i-- > 0 && turn.size() < 3;) turn.push_back(tail[i].y);
+  const double level = median(std::move(turn));
+  for (std::size_t i = lowest + 1; i < tail_size; ++i) {
+    if (tail[i].y > level + std::log(floor_margin)) return std::nullopt;
+  }
+  return level;
+}
+
+std::optional<OrderEstimate> fit(LogPoints points, const Window& window) {
+  const LogPoints used = points.subspan(window.first, window.count);
+  // About the window's middle the two parameters are uncorrelated and the problem is well conditioned.
+  const double x_middle = (used.front().x + used.back().x) / 2;
+  double offset = window.on_law.front().y + window.slope * (x_middle - window.on_law.front().x);
+  double slope = window.slope;
+
+  ceres::Problem::Options ownership;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  ceres::CauchyLoss loss(loss_scale);
+  for (const LogPoint& point : used) {
+    const auto law = [x = point.x - x_middle, y = point.y](const auto* a, const auto* p, auto* residual) {
+      *residual = *a + *p * x - y;
+      return true;
+    };
+    using Cost = ceres::AutoDiffCostFunction<std::remove_const_t<decltype(law)>, 1, 1, 1>;
+    problem.AddResidualBlock(new Cost(new auto(law)), &loss, &offset, &slope);
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.function_tolerance = 1e-15;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  ceres::Covariance covariance({});
+  const std::vector<std::pair<const double*, const double*>> blocks{{&slope, &slope}};
+  double slope_variance = 0;
+  if (!summary.IsSolutionUsable() || !covariance.Compute(blocks, &problem) ||
+      !covariance.GetCovarianceBlock(&slope, &slope, &slope_variance)) {
+    return std::nullopt;
+  }
+
+  double weighted_squares = 0;
+  for (const LogPoint& point : used) {
+    const double residual = offset + slope * (point.x - x_middle) - point.y;
+    const double scaled = residual / loss_scale;
+    weighted_squares += residual * residual / (1 + scaled * scaled);
+  }
+  const auto freedom = static_cast<double>(window.on_law.size() - 2);
+  const double student = boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.6827 / 2);
+
+  const auto slopes = secants(window.on_law);
+  const bool monotone = std::ranges::is_sorted(slopes) || std::ranges::is_sorted(slopes, std::greater{});
+
+  OrderEstimate estimate;
+  estimate.order = slope;
+  estimate.constant = std::exp(offset - slope * x_middle);
+  estimate.fit_uncertainty = student * std::sqrt(weighted_squares / freedom * slope_variance);
+  estimate.end_slope = slopes.front();
+  estimate.uncertainty = std::hypot(estimate.fit_uncertainty, estimate.end_slope - slope);
+  estimate.h_min = used.front().h;
+  estimate.h_max = used.back().h;
+  estimate.points = static_cast<int>(used.size());
+  estimate.dips = static_cast<int>(used.size() - window.on_law.size());
+  estimate.slope_tolerance = window.tolerance;
+  estimate.still_changing = monotone && window.tolerance > strict_tolerance;
+  return estimate;
+}
+
+OrderFit absent(OrderOutcome outcome, std::string reason) {
+  return {.outcome = outcome, .reason = std::move(reason), .estimate = {}, .floor = {}};
+}
+
+std::string slopes_at_small_end(LogPoints points) {
+  std::string text;
+  for (std::size_t i = 0; i + 1 < points.size() && i < 4; ++i) {
+    text += fmt::format("{}{:.2f}", i == 0 ? "" : ", ", slope_between(points[i], points[i + 1]));
+  }
+  return text;
+}
+
+OrderFit without_window(LogPoints points) {
+  if (median_slope(points) < least_slope && slope_between(points[0], points[1]) < least_slope) {
+    return absent(
+        OrderOutcome::not_falling,
+        fmt::format("the error does not fall with the step size: the median slope of {} points is {:.2f}",
+                    points.size(), median_slope(points)));
+  }
+  return absent(
+      OrderOutcome::no_power_law,
+      fmt::format("the smallest step sizes follow no single power law: slopes {} from h = {:.3g} upwards",
+                  slopes_at_small_end(points), points.front().h));
+}
+
+}  // namespace
+
+std::string_view name(OrderOutcome outcome) {
+  constexpr std::array<std::string_view, 7> names{"estimated",   "too_few_points", "below_reference",
+                                                  "not_falling", "no_power_law",   "repeated_step_size",
+                                                  "fit_failed"};
+  return names.at(static_cast<std::size_t>(outcome));
+}
+
+OrderFit fit_order(std::span<const ErrorPoint> points, double reference_error) {
+  std::vector<LogPoint> usable;
+  std::size_t below_reference = 0;
+  for (const ErrorPoint& point : points) {
+    if (!(point.step_size > 0 && std::isfinite(point.step_size))) continue;
+    if (!(point.error > 0 && std::isfinite(point.error))) continue;
+    // Negated so that a reference of unknown quality (NaN) supports no point.
+    if (!(point.error >= reference_margin * reference_error)) {
+      ++below_reference;
+      continue;
+    }
+    usable.push_back({std::log(point.step_size), std::log(point.error), point.step_size});
+  }
+  if (usable.size() < 3) {
+    if (usable.size() + below_reference < 3) {
+      return absent(
+          OrderOutcome::too_few_points,
+          fmt::format("three points are needed: {} given, {} of them with a finite error above zero",
+                      points.size(), usable.size() + below_reference));
+    }
+    return absent(
+        OrderOutcome::below_reference,
+        fmt::format("three points are needed: only {} of {} lie above {} times the reference's error {:.2g}",
+                    usable.size(), usable.size() + below_reference, reference_margin, reference_error));
+  }
+  std::ranges::sort(usable, {}, &LogPoint::x);
+  const auto repeated = std::ranges::adjacent_find(usable, {}, &LogPoint::x);
+  if (repeated != usable.end()) {
+    return absent(OrderOutcome::repeated_step_size,
+                  fmt::format("two points have the step size {:.6g}", repeated->h));
+  }
+
+  for (const double tolerance : {strict_tolerance, loose_tolerance}) {
+    const auto window = smallest_window(usable, tolerance);
+    if (!window) continue;
+    const auto level = window->first == 0 ? std::nullopt : floor_level(usable, window->first);
+    if (window->first > 0 && !level) continue;
+    auto estimate = fit(usable, *window);
+    if (!estimate) return absent(OrderOutcome::fit_failed, "the least-squares fit of the window failed");
+    OrderFit result{.outcome = OrderOutcome::estimated, .reason = {}, .estimate = estimate, .floor = {}};
+    if (level) result.floor = std::exp(*level);
+    return result;
+  }
+  return without_window(usable);
+}
+
+}  // namespace liebench

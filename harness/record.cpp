@@ -1,0 +1,113 @@
+#include "harness/record.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "harness/embedded.h"
+#include "harness/errors.h"
+
+namespace liebench {
+
+namespace {
+
+// A number that is not finite would be written as null: no record may hold one.
+double finite(double x, std::string_view what) {
+  if (!std::isfinite(x)) throw std::logic_error(fmt::format("a record would hold {} = {}", what, x));
+  return x;
+}
+
+Json norms(const ErrorNorms& e) {
+  Json j;
+  j["end_relative"] = finite(e.end_relative, "end_relative");
+  j["end_absolute"] = finite(e.end_absolute, "end_absolute");
+  j["max_absolute"] = finite(e.max_absolute, "max_absolute");
+  return j;
+}
+
+Json drift(const Drift& d) {
+  Json j;
+  j["energy"] = finite(d.energy, "energy");
+  if (d.position_constraint) j["position_constraint"] = finite(*d.position_constraint, "position_constraint");
+  if (d.velocity_constraint) j["velocity_constraint"] = finite(*d.velocity_constraint, "velocity_constraint");
+  j["group"] = finite(d.group, "group");
+  return j;
+}
+
+}  // namespace
+
+Json make_record(const RunSpec& run, const RunResult& result, const PreparedProblem& problem,
+                 const Json& provenance) {
+  Json j;
+  j["schema"] = record_schema;
+  j["key"] = run.key();
+  j["study"] = run.study;
+  j["problem"] = run.problem->name;
+  j["formulation"] = run.formulation->name;
+  j["parameters"] = run.parameters;
+  j["integrator"] = run.method->name;
+  j["options"] = options_to_json(*run.method, run.request.options);
+  j["start"] = run.start;
+  j["precision"] = name(run.precision);
+  j["step_size"] = run.step_size();
+  j["requested_step_size"] = run.requested_step_size;
+  j["steps"] = run.request.steps;
+  j["t_0"] = run.t_0;
+  j["t_end"] = run.t_end;
+  j["outcome"] = name(result.outcome);
+  if (result.failure) {
+    Json& failure = j["failure"];
+    failure["time"] = run.t_0 + result.failure->time;
+    failure["step"] = result.failure->step;
+    // The residual itself may have overflowed.
+    if (std::isfinite(result.failure->residual)) failure["residual"] = result.failure->residual;
+    failure["message"] = result.failure->message;
+  }
+  j["reference"]["method"] = problem.reference_method();
+  j["reference"]["error_estimate"] = problem.reference_error();
+  if (result.q) {
+    Json& errors = j["errors"];
+    errors["q"] = norms(*result.q);
+    errors["v"] = norms(*result.v);
+    if (result.lambda) errors["lambda"] = norms(*result.lambda);
+  }
+  if (result.drift) j["drift"] = drift(*result.drift);
+  Json& cost = j["cost"];
+  cost["residuals"] = result.audit.residuals;
+  cost["jacobians"] = result.audit.jacobians;
+  cost["factorizations"] = result.audit.factorizations;
+  cost["solves"] = result.audit.solves;
+  // Each iteration of the kernel is one back-substitution.
+  cost["newton_iterations"] = result.audit.solves;
+  j["provenance"] = provenance;
+  return j;
+}
+
+std::vector<Json> read_records(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::error_code code;
+  if (!stream || std::filesystem::is_directory(file, code))
+    throw InputError(file.string(), "cannot be read; a file of records (JSON Lines) is expected here");
+  std::vector<Json> records;
+  std::size_t number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    if (line.empty()) continue;
+    const std::string place = fmt::format("{}:{}", file.string(), number);
+    Json record = parse_json(line, place);
+    if (!record.is_object() || !record.contains("schema") || !record.contains("key"))
+      throw InputError(place, "is not a record of liebench: the keys \"schema\" and \"key\" are missing");
+    if (record["schema"] != record_schema)
+      throw InputError(place, fmt::format("record schema {}; this program reads {}", record["schema"].dump(),
+                                          record_schema));
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+std::string_view record_schema_text() {
+  return embedded_file("record.schema.json");
+}
+
+}  // namespace liebench

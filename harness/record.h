@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/study.h"
+
+// Records: what happened, one JSON object a run; format in record.schema.json, words in docs/records.md.
+
+namespace liebench {
+
+inline constexpr int record_schema = 1;
+
+// The record of a run. `provenance` is the object of harness/provenance.h.
+Json make_record(const RunSpec& run, const RunResult& result, const PreparedProblem& problem,
+                 const Json& provenance);
+
+// All records of a JSON Lines file in the order of its lines. Throws InputError that names file and line
+// where one is not a record of this schema.
+std::vector<Json> read_records(const std::filesystem::path& file);
+
+// The JSON schema of a record, as a text.
+std::string_view record_schema_text();
+
+}  // namespace liebench

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "harness/strict_json.h"
+
+namespace liebench {
+
+// Writes `text` to `file` whole or not at all: a temporary file beside it, flushed to the disk and renamed.
+// Throws MachineError that names the file.
+void write_whole(const std::filesystem::path& file, std::string_view text);
+
+// Throws MachineError unless files can be made in the folder, which is created where it is missing.
+void require_writable_folder(const std::filesystem::path& folder);
+
+// A growing file of records. Each record is appended whole, in one write, when its run ends, so that a run
+// that is killed loses nothing that had ended; `sort` then brings the file into the order of the study.
+class RecordFile {
+ public:
+  // Opens or creates the file and reads what is there. A torn last line, left by a machine that failed, is
+  // dropped with a message on standard error. Throws InputError where the file holds anything else that is
+  // not a record, MachineError where it cannot be written.
+  explicit RecordFile(std::filesystem::path file);
+  ~RecordFile();
+  RecordFile(const RecordFile&) = delete;
+  RecordFile& operator=(const RecordFile&) = delete;
+
+  bool has(const std::string& key) const { return lines_.contains(key); }
+  void append(const Json& record);
+  // Rewrites the file whole: first the records of these keys in this order, then all others in the order they
+  // were in.
+  void sort(const std::vector<std::string>& keys);
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  std::map<std::string, std::string> lines_;  // by key, without the line's end
+  std::vector<std::string> sequence_;         // keys in the order of the file
+};
+
+}  // namespace liebench

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "groups/extended.h"
+#include "integrators/audit.h"
+#include "integrators/option.h"
+#include "integrators/outcome.h"
+
+// One run as the harness sees it: the request that goes down through the seam and the result that comes back.
+// Neither knows a group, a system or a scalar type.
+
+namespace liebench {
+
+enum class Precision { double_precision, extended };
+
+struct RunRequest {
+  std::string integrator;
+  OptionValues options;
+  Extended step_size;       // h, s
+  std::uint64_t steps = 0;  // N: the run covers t_0, ..., t_0 + N h, starting values included
+};
+
+// Errors of one solution component, norms as in docs/records.md.
+struct ErrorNorms {
+  double end_relative = 0.0;
+  double end_absolute = 0.0;
+  double max_absolute = 0.0;
+};
+
+// Largest deviations from what the exact solution keeps, over at most about 1000 equidistant steps and the
+// last.
+struct Drift {
+  double energy = 0.0;                        // |E_n - E(t_0)|, J
+  std::optional<double> position_constraint;  // max-norm of Phi(q_n)
+  std::optional<double> velocity_constraint;  // max-norm of B(q_n) v_n
+  double group = 0.0;                         // see LieGroup: defect
+};
+
+struct RunFailure {
+  double time = 0.0;
+  std::uint64_t step = 0;  // the step that failed: it would have led to t_0 + step h
+  double residual = 0.0;
+  std::string message;
+};
+
+struct RunResult {
+  Outcome outcome = Outcome::ok;
+  std::optional<RunFailure> failure;  // exactly where outcome is not ok
+  // Of a run that ended well.
+  std::optional<ErrorNorms> q, v, lambda;
+  std::optional<Drift> drift;
+  KernelAudit audit;
+};
+
+}  // namespace liebench

@@ -1,0 +1,193 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "harness/run.h"
+#include "integrators/list.h"
+#include "integrators/starting_values.h"
+
+// The inside of the seam: everything from here down is a template on system and scalar.
+
+namespace liebench {
+
+namespace detail {
+
+template <class Vector>
+double max_norm(const Vector& v) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    const double x = std::abs(to_double(v(i)));
+    if (!(x <= largest)) largest = x;
+  }
+  return largest;
+}
+
+// ||a - b||_2 / ||b||_2, the difference taken before rounding; ||a - b||_2 where b = 0.
+template <class Vector>
+double relative_distance(const Vector& a, const Vector& b) {
+  const Eigen::VectorXd difference = (a - b).eval().template cast<double>();
+  const Eigen::VectorXd reference = b.template cast<double>();
+  const double size = reference.norm();
+  return size > 0.0 ? difference.norm() / size : difference.norm();
+}
+
+// A solution point in the scalar of the run.
+template <MechanicalSystem S>
+SolutionPoint<S> rounded(const SolutionPoint<typename S::template rebind<Extended>>& p) {
+  using T = typename S::Scalar;
+  using Group = typename S::template rebind<Extended>::Group;
+  SolutionPoint<S> r;
+  if constexpr (std::is_same_v<T, double>)
+    r.t = to_double(p.t);
+  else
+    r.t = p.t;
+  r.q = Group::template cast<T>(p.q);
+  r.v = p.v.template cast<T>();
+  r.acceleration = p.acceleration.template cast<T>();
+  r.lambda = p.lambda.template cast<T>();
+  return r;
+}
+
+// Compares a running method with the exact solution and keeps the norms.
+template <MechanicalSystem S>
+class Monitor {
+ public:
+  using Exact = typename S::template rebind<Extended>;
+
+  Monitor(const S& system, std::uint64_t steps)
+      : system_(system), stride_(std::max<std::uint64_t>(1, steps / 1000)), steps_(steps) {
+    initial_energy_ = to_double(system.energy(system.initial_configuration(), system.initial_velocity()));
+  }
+
+  template <class Stepper>
+  void observe(std::uint64_t n, const Stepper& stepper, const SolutionPoint<Exact>& exact) {
+    const auto q = S::Group::template cast<Extended>(stepper.configuration());
+    const auto v = stepper.velocity().template cast<Extended>().eval();
+    q_.end_absolute = max_norm(Exact::Group::separation(q, exact.q));
+    v_.end_absolute = max_norm((v - exact.v).eval());
+    q_.max_absolute = std::max(q_.max_absolute, q_.end_absolute);
+    v_.max_absolute = std::max(v_.max_absolute, v_.end_absolute);
+    if constexpr (S::constraints > 0) {
+      const auto lambda = stepper.multipliers().template cast<Extended>().eval();
+      lambda_.end_absolute = max_norm((lambda - exact.lambda).eval());
+      lambda_.max_absolute = std::max(lambda_.max_absolute, lambda_.end_absolute);
+      if (n == steps_) lambda_.end_relative = relative_distance(lambda, exact.lambda);
+    }
+    if (n == steps_) {
+      q_.end_relative = relative_distance(Exact::Group::stacked(q), Exact::Group::stacked(exact.q));
+      v_.end_relative = relative_distance(v, exact.v);
+    }
+    if (n % stride_ == 0 || n == steps_) observe_drift(stepper);
+  }
+
+  void report(RunResult& result) const {
+    result.q = q_;
+    result.v = v_;
+    if constexpr (S::constraints > 0) result.lambda = lambda_;
+    result.drift = drift_;
+  }
+
+ private:
+  template <class Stepper>
+  void observe_drift(const Stepper& stepper) {
+    const auto& q = stepper.configuration();
+    const auto& v = stepper.velocity();
+    drift_.energy = std::max(drift_.energy, std::abs(to_double(system_.energy(q, v)) - initial_energy_));
+    drift_.group = std::max(drift_.group, to_double(S::Group::defect(q)));
+    if constexpr (S::constraints > 0) {
+      drift_.position_constraint =
+          std::max(drift_.position_constraint.value_or(0.0), max_norm(system_.constraint(q)));
+      drift_.velocity_constraint = std::max(drift_.velocity_constraint.value_or(0.0),
+                                            max_norm((system_.constraint_gradient(q) * v).eval()));
+    }
+  }
+
+  const S& system_;
+  std::uint64_t stride_;
+  std::uint64_t steps_;
+  double initial_energy_;
+  ErrorNorms q_, v_, lambda_;
+  Drift drift_;
+};
+
+constexpr std::string_view explanation(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::ok:
+      return "";
+    case Outcome::newton_diverged:
+      return "Newton's increments do not shrink; the step size is too large here";
+    case Outcome::singular_matrix:
+      return "the matrix of the step equation has a zero pivot";
+    case Outcome::non_finite:
+      return "an infinity or a NaN in the state";
+    case Outcome::rotation_too_large:
+      return "an increment turns by pi or more; the step size is too large here";
+    case Outcome::step_limit:
+      return "more steps than allowed";
+  }
+  return "";
+}
+
+// One accuracy run. `exact(t)` is the solution point at t.
+template <class Stepper, class Solution>
+RunResult follow(Stepper stepper, const typename Stepper::System& system, const RunRequest& request,
+                 const Solution& exact) {
+  using S = typename Stepper::System;
+  using T = typename S::Scalar;
+  const auto time = [&](std::uint64_t n) { return request.step_size * Extended(double(n)); };
+  RunResult result;
+  const auto fail = [&](const StepResult& step, std::uint64_t n) {
+    result.outcome = step.outcome;
+    result.failure = RunFailure{.time = to_double(time(n)),
+                                .step = n,
+                                .residual = step.residual,
+                                .message = std::string(explanation(step.outcome))};
+    result.audit = stepper.audit();
+    return result;
+  };
+
+  std::array<SolutionPoint<S>, std::size_t(Stepper::starting_points)> points;
+  for (std::size_t j = 0; j < points.size(); ++j) points[j] = rounded<S>(exact(time(j)));
+  T h;
+  if constexpr (std::is_same_v<T, double>)
+    h = to_double(request.step_size);
+  else
+    h = request.step_size;
+  if (const StepResult start = stepper.start(h, points); start.outcome != Outcome::ok)
+    return fail(start, Stepper::steps - 1);
+  Monitor<S> monitor(system, request.steps);
+  for (std::uint64_t n = Stepper::steps; n <= request.steps; ++n) {
+    if (const StepResult step = stepper.step(); step.outcome != Outcome::ok) return fail(step, n);
+    monitor.observe(n, stepper, exact(time(n)));
+  }
+  monitor.report(result);
+  result.audit = stepper.audit();
+  return result;
+}
+
+}  // namespace detail
+
+// Runs the integrator that the request names, of the list of all, on a system with its exact solution.
+template <MechanicalSystem S, class Solution>
+RunResult run_method(const RunRequest& request, const S& system, const Solution& exact) {
+  RunResult result;
+  const auto attempt = [&]<class Method>(IntegratorList<Method>) {
+    if (Method::name != request.integrator) return false;
+    result = Method::template with_stepper<S, KernelAudit>(
+        Method::options(request.options), system,
+        [&](auto stepper) { return detail::follow(std::move(stepper), system, request, exact); });
+    return true;
+  };
+  const bool found = [&]<class... Methods>(IntegratorList<Methods...>) {
+    return (attempt(IntegratorList<Methods>{}) || ...);
+  }(Integrators{});
+  if (!found) throw std::logic_error(fmt::format("integrator \"{}\" is not in the list", request.integrator));
+  return result;
+}
+
+}  // namespace liebench

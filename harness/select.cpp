@@ -1,0 +1,104 @@
+#include "harness/select.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace liebench {
+
+namespace {
+
+Json identity_of(const Json& record) {
+  Json id;
+  for (const char* key :
+       {"problem", "formulation", "parameters", "integrator", "options", "start", "precision", "t_0"})
+    if (record.contains(key)) id[key] = record[key];
+  return id;
+}
+
+// Leaves of the identity as "name" -> text, so that labels can leave out what all curves share.
+void flatten(const std::string& name, const Json& value,
+             std::vector<std::pair<std::string, std::string>>& leaves) {
+  if (value.is_object()) {
+    for (const auto& item : value.items()) flatten(item.key(), item.value(), leaves);
+    return;
+  }
+  leaves.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+bool speaks_for_itself(const std::string& name) {
+  return name == "problem" || name == "formulation" || name == "integrator" || name == "precision";
+}
+
+void label(std::vector<Curve>& curves) {
+  std::map<std::string, std::set<std::string>> values;
+  std::vector<std::vector<std::pair<std::string, std::string>>> leaves(curves.size());
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    flatten("", curves[i].identity, leaves[i]);
+    for (const auto& [name, text] : leaves[i]) values[name].insert(text);
+  }
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    std::string text;
+    for (const auto& [name, value] : leaves[i]) {
+      const bool everywhere = std::all_of(leaves.begin(), leaves.end(), [&](const auto& other) {
+        return std::any_of(other.begin(), other.end(), [&](const auto& leaf) { return leaf.first == name; });
+      });
+      if (values[name].size() < 2 && everywhere) continue;
+      if (!text.empty()) text += ", ";
+      text += speaks_for_itself(name) ? value : name + " = " + value;
+    }
+    curves[i].label = text.empty() ? curves[i].identity["integrator"].get<std::string>() : text;
+  }
+}
+
+}  // namespace
+
+std::string describe(const Quantity& quantity) {
+  const std::string unit = quantity.component == "lambda" ? " in N" : "";
+  if (quantity.norm == "end_relative") return "relative error of " + quantity.component + " at the end";
+  if (quantity.norm == "end_absolute") return "error of " + quantity.component + " at the end" + unit;
+  return "maximum error of " + quantity.component + unit;
+}
+
+std::optional<double> error_of(const Json& record, const Quantity& quantity) {
+  const auto errors = record.find("errors");
+  if (errors == record.end()) return std::nullopt;
+  const auto component = errors->find(quantity.component);
+  if (component == errors->end()) return std::nullopt;
+  const auto value = component->find(quantity.norm);
+  if (value == component->end() || !value->is_number()) return std::nullopt;
+  return value->get<double>();
+}
+
+std::vector<Curve> curves(const std::vector<Json>& records) {
+  std::vector<Curve> list;
+  std::map<std::string, std::size_t> index;
+  for (const Json& record : records) {
+    Json id = identity_of(record);
+    const auto [place, fresh] = index.try_emplace(id.dump(), list.size());
+    if (fresh) list.push_back({.label = "", .identity = std::move(id), .records = {}});
+    list[place->second].records.push_back(&record);
+  }
+  for (Curve& curve : list)
+    std::stable_sort(curve.records.begin(), curve.records.end(), [](const Json* a, const Json* b) {
+      return a->at("step_size").get<double>() > b->at("step_size").get<double>();
+    });
+  label(list);
+  return list;
+}
+
+OrderFit fit_curve(const Curve& curve, const Quantity& quantity) {
+  std::vector<ErrorPoint> points;
+  double reference_error = 0.0;
+  for (const Json* record : curve.records) {
+    const std::optional<double> error = error_of(*record, quantity);
+    if (!error) continue;
+    points.push_back({record->at("step_size").get<double>(), *error});
+    reference_error = std::max(reference_error, record->at("reference").at("error_estimate").get<double>());
+  }
+  return fit_order(points, reference_error);
+}
+
+}  // namespace liebench

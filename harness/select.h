@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/order_fit.h"
+#include "harness/strict_json.h"
+
+// From records to curves: which error against which step size, and which records belong together.
+
+namespace liebench {
+
+// One recorded error: component "q", "v" or "lambda", norm "end_relative", "end_absolute" or "max_absolute".
+struct Quantity {
+  std::string component = "q";
+  std::string norm = "end_relative";
+};
+
+// "relative error of q at the end", "maximum error of lambda in N": as an axis or a column says it.
+std::string describe(const Quantity& quantity);
+
+// The error of a record; empty where the run failed or the quantity does not apply.
+std::optional<double> error_of(const Json& record, const Quantity& quantity);
+
+// Records of one curve: they differ in the step size alone.
+struct Curve {
+  std::string label;  // what sets it apart from the other curves of its set
+  Json identity;      // problem, formulation, parameters, integrator, options, start, precision, t_0, t_end
+  std::vector<const Json*> records;  // by falling step size
+};
+
+// All curves of the records, in the order of their first record. Labels name what differs among them.
+std::vector<Curve> curves(const std::vector<Json>& records);
+
+// The observed order of a curve: fit_order on its records with the reference's error estimate.
+OrderFit fit_curve(const Curve& curve, const Quantity& quantity);
+
+}  // namespace liebench

@@ -1,0 +1,280 @@
+#include "harness/study.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "groups/decimal.h"
+#include "harness/errors.h"
+
+namespace liebench {
+
+namespace {
+
+struct ProblemChoice {
+  const ProblemInfo* problem;
+  const FormulationInfo* formulation;
+  Json parameters;
+};
+
+struct MethodChoice {
+  const MethodInfo* method;
+  OptionValues options;
+  std::string pointer;
+};
+
+struct Interval {
+  double t_0 = 0.0;
+  double t_end = 0.0;
+  int local_steps = 0;  // 0: the interval counts
+};
+
+// Values of a key that may hold one or a list; the fallback where it is absent.
+std::vector<JsonView> alternatives(const JsonView& object, const std::string& key) {
+  if (!object.has(key)) return {};
+  const JsonView value = object[key];
+  if (!value.is_array()) return {value};
+  value.require_array();
+  std::vector<JsonView> list;
+  for (std::size_t i = 0; i < value.size(); ++i) list.push_back(value[i]);
+  return list;
+}
+
+template <class Info>
+const Info& by_name(const std::vector<Info>& list, const JsonView& view, std::string_view what) {
+  std::vector<std::string> names;
+  for (const Info& info : list) names.emplace_back(info.name);
+  const std::string word = view.word(names, what);
+  return *std::find_if(list.begin(), list.end(), [&](const Info& info) { return info.name == word; });
+}
+
+// Parameters whose own shape is a number may be lists; the product of all of them.
+std::vector<Json> expand_parameters(const ProblemInfo& problem, const JsonView& view) {
+  std::vector<Json> expanded{view.value()};
+  for (const ParameterInfo& info : problem.parameters) {
+    const std::string key(info.name);
+    if (!info.fallback.is_number() || !view.has(key) || !view[key].is_array()) continue;
+    view[key].require_array();
+    std::vector<Json> next;
+    for (const Json& parameters : expanded)
+      for (const Json& value : view[key].value()) {
+        next.push_back(parameters);
+        next.back()[key] = value;
+      }
+    expanded = std::move(next);
+  }
+  return expanded;
+}
+
+std::vector<ProblemChoice> read_problems(const JsonView& list) {
+  list.require_array();
+  std::vector<ProblemChoice> choices;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const JsonView entry = list[i];
+    entry.require_object({"name", "formulation", "parameters"});
+    entry.require_key("name");
+    const ProblemInfo& problem = by_name(problems(), entry["name"], "problem");
+    std::vector<const FormulationInfo*> formulations;
+    for (const JsonView& view : alternatives(entry, "formulation"))
+      formulations.push_back(&by_name(problem.formulations, view, "formulation"));
+    if (formulations.empty()) formulations.push_back(&problem.formulations.front());
+    const Json none = Json::object();
+    const JsonView parameters =
+        entry.has("parameters") ? entry["parameters"] : JsonView(none, entry.pointer() + "/parameters");
+    if (!parameters.value().is_object()) parameters.reject("an object");
+    std::vector<Json> sets;
+    for (const Json& set : expand_parameters(problem, parameters))
+      sets.push_back(problem.complete({set, parameters.pointer()}));
+    for (const FormulationInfo* formulation : formulations)
+      for (const Json& set : sets) choices.push_back({&problem, formulation, set});
+  }
+  return choices;
+}
+
+std::vector<MethodChoice> read_methods(const JsonView& list) {
+  list.require_array();
+  std::vector<MethodChoice> choices;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const JsonView entry = list[i];
+    if (!entry.value().is_object()) entry.reject("an object with the key \"name\"");
+    entry.require_key("name");
+    const MethodInfo& method = by_name(methods(), entry["name"], "integrator");
+    std::vector<std::string> keys{"name"};
+    for (const OptionInfo& info : method.options) keys.emplace_back(info.name);
+    entry.require_object(keys);
+    std::vector<OptionValues> expanded(1);
+    for (const OptionInfo& info : method.options) {
+      std::vector<OptionValue> values;
+      for (const JsonView& view : alternatives(entry, std::string(info.name)))
+        values.push_back(option_value(info, view));
+      if (values.empty()) values.push_back(option_default(info));
+      std::vector<OptionValues> next;
+      for (const OptionValues& options : expanded)
+        for (const OptionValue& value : values) {
+          next.push_back(options);
+          next.back().set(info.name, value);
+        }
+      expanded = std::move(next);
+    }
+    for (OptionValues& options : expanded) choices.push_back({&method, std::move(options), entry.pointer()});
+  }
+  return choices;
+}
+
+double positive_step(const JsonView& view) {
+  const double h = view.number("a positive step size in s");
+  if (!(h > 0.0)) view.reject("a positive step size in s");
+  return h;
+}
+
+struct StepSize {
+  double value;
+  std::string pointer;
+};
+
+std::vector<StepSize> read_step_sizes(const JsonView& view) {
+  std::vector<StepSize> sizes;
+  if (view.value().is_object()) {
+    view.require_object({"from", "to", "per_decade"});
+    for (const char* key : {"from", "to", "per_decade"}) view.require_key(key);
+    const double from = positive_step(view["from"]), to = positive_step(view["to"]);
+    const int per_decade = view["per_decade"].integer_in(1, 100);
+    if (to > from) view["to"].reject(fmt::format("at most \"from\", {}", from));
+    const int count = int(std::floor(std::log10(from / to) * per_decade + 1e-9)) + 1;
+    for (int i = 0; i < count; ++i)
+      sizes.push_back({from * std::pow(10.0, -double(i) / per_decade), view.pointer()});
+    return sizes;
+  }
+  view.require_array();
+  for (std::size_t i = 0; i < view.size(); ++i) sizes.push_back({positive_step(view[i]), view[i].pointer()});
+  return sizes;
+}
+
+Interval read_interval(const JsonView& study) {
+  Interval interval;
+  if (study.has("t_0")) interval.t_0 = study["t_0"].number("a finite time in s");
+  if (study.has("steps")) {
+    if (study.has("t_end")) study["steps"].reject("either \"t_end\" or \"steps\", not both");
+    interval.local_steps = study["steps"].integer_in(1, 1000000);
+    return interval;
+  }
+  study.require_key("t_end");
+  interval.t_end = study["t_end"].number("a time in s after t_0");
+  if (!(interval.t_end > interval.t_0))
+    study["t_end"].reject(fmt::format("a time after t_0 = {} s", interval.t_0));
+  return interval;
+}
+
+// The number of steps a method's start covers: k of a k-step method.
+int start_steps(const MethodChoice& choice) {
+  const auto k = choice.options.all().find("k");
+  return k == choice.options.all().end() ? 1 : std::get<int>(k->second);
+}
+
+void set_grid(RunSpec& run, const Interval& interval, const StepSize& size, const MethodChoice& choice) {
+  run.requested_step_size = size.value;
+  run.t_0 = interval.t_0;
+  const int k = start_steps(choice);
+  if (interval.local_steps > 0) {
+    run.local = true;
+    run.request.step_size = decimal<Extended>(size.value);
+    run.request.steps = std::uint64_t(k - 1 + interval.local_steps);
+    run.t_end = interval.t_0 + double(run.request.steps) * size.value;
+    return;
+  }
+  const double length = interval.t_end - interval.t_0;
+  // Round-off of a division that comes out even must not add a step.
+  const double steps = std::ceil(length / size.value * (1.0 - 1e-12));
+  if (!(steps <= most_steps))
+    throw InputError(size.pointer, fmt::format("{} would take {:.3g} steps; at most {:.0e} are allowed",
+                                               size.value, steps, most_steps));
+  if (steps < k)
+    throw InputError(
+        size.pointer,
+        fmt::format("{} gives {:.0f} steps in [{}, {}]; allowed: at least {}, the steps that {} with "
+                    "k = {} starts from",
+                    size.value, steps, interval.t_0, interval.t_end, k, choice.method->name, k));
+  run.request.steps = std::uint64_t(steps);
+  run.request.step_size =
+      (decimal<Extended>(interval.t_end) - decimal<Extended>(interval.t_0)) / Extended(steps);
+  run.t_end = interval.t_end;
+}
+
+}  // namespace
+
+std::string_view name(Precision precision) {
+  return precision == Precision::extended ? "extended" : "double";
+}
+
+Json RunSpec::canonical_input() const {
+  Json j;
+  j["numerical_version"] = numerical_version;
+  j["problem"] = problem->name;
+  j["formulation"] = formulation->name;
+  j["parameters"] = parameters;
+  j["integrator"] = method->name;
+  j["options"] = options_to_json(*method, request.options);
+  j["start"] = start;
+  j["precision"] = name(precision);
+  j["t_0"] = t_0;
+  j["steps"] = request.steps;
+  // The step size of an interval follows from its ends and the number of steps; that of local runs is given.
+  if (local)
+    j["step_size"] = requested_step_size;
+  else
+    j["t_end"] = t_end;
+  return j;
+}
+
+std::string RunSpec::key() const {
+  const std::string text = canonical_input().dump();
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+Study read_study(const Json& json) {
+  const JsonView root(json, "");
+  root.require_object(
+      {"name", "problems", "integrators", "step_sizes", "t_0", "t_end", "steps", "start", "precision"});
+  for (const char* key : {"name", "problems", "integrators", "step_sizes"}) root.require_key(key);
+  Study study;
+  study.name = root["name"].text();
+  if (study.name.empty()) root["name"].reject("a name that is not empty");
+  const auto problem_choices = read_problems(root["problems"]);
+  const auto method_choices = read_methods(root["integrators"]);
+  const auto sizes = read_step_sizes(root["step_sizes"]);
+  const Interval interval = read_interval(root);
+  const std::string start = root.has("start") ? root["start"].word({"reference"}, "start") : "reference";
+  std::vector<Precision> precisions;
+  for (const JsonView& view : alternatives(root, "precision"))
+    precisions.push_back(view.word({"double", "extended"}, "precision") == "extended"
+                             ? Precision::extended
+                             : Precision::double_precision);
+  if (precisions.empty()) precisions.push_back(Precision::double_precision);
+
+  std::set<std::string> keys;
+  for (const ProblemChoice& problem : problem_choices)
+    for (const MethodChoice& method : method_choices)
+      for (const Precision precision : precisions)
+        for (const StepSize& size : sizes) {
+          RunSpec run;
+          run.study = study.name;
+          run.problem = problem.problem;
+          run.formulation = problem.formulation;
+          run.parameters = problem.parameters;
+          run.method = method.method;
+          run.request.integrator = std::string(method.method->name);
+          run.request.options = method.options;
+          run.precision = precision;
+          run.start = start;
+          set_grid(run, interval, size, method);
+          // Two ways to say the same run are one run.
+          if (keys.insert(run.key()).second) study.runs.push_back(std::move(run));
+        }
+  return study;
+}
+
+}  // namespace liebench

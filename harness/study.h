@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "harness/methods.h"
+#include "harness/problems.h"
+#include "harness/run.h"
+#include "harness/strict_json.h"
+
+// A study: what to run. Read strictly, expanded to single runs, and checked as a whole before the first of
+// them starts.
+
+namespace liebench {
+
+// One run of a study, complete: nothing in it is a default any more.
+struct RunSpec {
+  std::string study;
+  const ProblemInfo* problem = nullptr;
+  const FormulationInfo* formulation = nullptr;
+  Json parameters;
+  const MethodInfo* method = nullptr;
+  RunRequest request;
+  Precision precision = Precision::double_precision;
+  std::string start;                 // "reference"
+  double requested_step_size = 0.0;  // as the study has it, s
+  double t_0 = 0.0;                  // s
+  double t_end = 0.0;                // s
+  bool local = false;                // a fixed number of steps instead of a fixed interval
+
+  double step_size() const { return to_double(request.step_size); }
+  // Everything that the numbers of the run depend on, in canonical form: the record's key is its hash.
+  Json canonical_input() const;
+  std::string key() const;
+};
+
+struct Study {
+  std::string name;
+  std::vector<RunSpec> runs;  // in the order of the file: problems, integrators, precisions, step sizes
+};
+
+// The largest number of steps that a run may ask for.
+inline constexpr double most_steps = 1e9;
+
+// Version of the numerical code: part of every key, raised whenever a change alters results.
+inline constexpr int numerical_version = 1;
+
+// Throws InputError with the JSON pointer of the first thing that is wrong.
+Study read_study(const Json& study);
+
+std::string_view name(Precision precision);
+
+}  // namespace liebench

@@ -1,0 +1,69 @@
+#include "harness/tables.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "harness/select.h"
+
+namespace liebench {
+
+Table orders_table(const std::vector<Json>& records) {
+  Table table("Observed orders of convergence; window and uncertainty by the rule of docs/orders.md",
+              {{.header = "curve"},
+               {.header = "error"},
+               {.header = "order", .kind = ColumnKind::number, .alignment = Alignment::right, .digits = 4},
+               {.header = "±", .kind = ColumnKind::number, .alignment = Alignment::right, .digits = 2},
+               {.header = "from h", .unit = "s", .kind = ColumnKind::number, .alignment = Alignment::right},
+               {.header = "to h", .unit = "s", .kind = ColumnKind::number, .alignment = Alignment::right},
+               {.header = "points", .kind = ColumnKind::integer, .alignment = Alignment::right},
+               {.header = "remark"}});
+  for (const Curve& curve : curves(records))
+    for (const char* component : {"q", "v", "lambda"})
+      for (const char* norm : {"end_relative", "max_absolute"}) {
+        const Quantity quantity{component, norm};
+        bool applies = false;
+        for (const Json* record : curve.records) applies = applies || error_of(*record, quantity).has_value();
+        if (!applies) continue;
+        const OrderFit fit = fit_curve(curve, quantity);
+        if (fit.estimate)
+          table.add_row({curve.label, describe(quantity), fit.estimate->order, fit.estimate->uncertainty,
+                         fit.estimate->h_min, fit.estimate->h_max, std::int64_t(fit.estimate->points),
+                         fit.estimate->still_changing ? std::string("slope still changing") : std::string()});
+        else
+          table.add_row({curve.label, describe(quantity), {}, {}, {}, {}, {}, fit.reason});
+      }
+  return table;
+}
+
+Table outcomes_table(const std::vector<Json>& records) {
+  Table table("Outcomes", {{.header = "curve"},
+                           {.header = "outcome"},
+                           {.header = "runs", .kind = ColumnKind::integer, .alignment = Alignment::right},
+                           {.header = "step sizes", .unit = "s"},
+                           {.header = "first failure at t",
+                            .unit = "s",
+                            .kind = ColumnKind::number,
+                            .alignment = Alignment::right},
+                           {.header = "message"}});
+  for (const Curve& curve : curves(records)) {
+    std::map<std::string, std::vector<const Json*>> by_outcome;
+    for (const Json* record : curve.records)
+      by_outcome[record->at("outcome").get<std::string>()].push_back(record);
+    for (const auto& [outcome, runs] : by_outcome) {
+      const double largest = runs.front()->at("step_size").get<double>();
+      const double smallest = runs.back()->at("step_size").get<double>();
+      const std::string sizes = runs.size() == 1 ? fmt::format("{:.3g}", largest)
+                                                 : fmt::format("{:.3g} to {:.3g}", largest, smallest);
+      Cell time, message;
+      if (runs.front()->contains("failure")) {
+        time = runs.front()->at("failure").at("time").get<double>();
+        message = runs.front()->at("failure").at("message").get<std::string>();
+      }
+      table.add_row({curve.label, outcome, std::int64_t(runs.size()), sizes, time, message});
+    }
+  }
+  return table;
+}
+
+}  // namespace liebench

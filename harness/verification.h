@@ -1,0 +1,24 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "harness/strict_json.h"
+
+// What the paper claims and what was measured: docs/verification.md is this text.
+
+namespace liebench {
+
+struct Verification {
+  std::string markdown;
+  int claims = 0;
+  int confirmed = 0;
+};
+
+// Judges every claim by the records of the figures' studies in extended precision. `note` is a sentence about
+// the run that made them, such as that it was the short form.
+Verification verify(const std::map<std::string, std::vector<Json>>& records_by_study,
+                    const std::string& note);
+
+}  // namespace liebench

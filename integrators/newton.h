@@ -1,0 +1,206 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/audit.h"
+#include "integrators/dense_lu.h"
+#include "integrators/outcome.h"
+#include "integrators/step_equation.h"
+
+// The Newton kernel that solves the step equation of every method.
+//
+// Simplified Newton iteration: one factorization serves iterations and steps until a fresh one is cheaper.
+// The residual is evaluated in the scalar T of the run, matrix and correction in double (iterative
+// refinement: in extended precision each correction still gains the digits that double has).
+//
+// Stopping rule. Let d_i be the weighted norm of the i-th increment relative to the unknowns, theta = d_i /
+// d_{i-1} the observed contraction. The iteration ends
+//   - converged, when d_i or the predicted next increment theta d_i is below the round-off unit of the
+//   unknowns;
+//   - converged at the round-off floor, when the increments no longer shrink by a factor of 2 and are within
+//   a few units
+//     of round-off, or, with a matrix formed in this step, below the floor that the condition of the matrix
+//     allows;
+//   - newton_diverged, when they no longer shrink and are above that floor.
+// The round-off unit of Dq is eps |Dq| + eps |q| / h where a constraint is present: Phi is known to eps |q|
+// only, and its row is Phi / h. That of h lambda is the same through the mass matrix.
+
+namespace liebench {
+
+template <MechanicalSystem S, class Audit>
+class NewtonKernel {
+ public:
+  using T = typename S::Scalar;
+  using Equation = StepEquation<S>;
+  using Unknowns = typename Equation::Unknowns;
+  using Point = typename Equation::Point;
+  static constexpr int m = Equation::m;
+  static constexpr int l = Equation::l;
+  static constexpr int n = m + l;
+
+  explicit NewtonKernel(const S& system) : system_(system), linear_system_(system.template cast<double>()) {}
+
+  const S& system() const { return system_; }
+  const Audit& audit() const { return audit_; }
+
+  // Solves the step equation from the prediction in z; leaves the solution in z and the new state in `point`.
+  template <class Closure>
+  StepResult solve(const T& t, const T& h, const Configuration<S>& q_n, const Closure& closure, Unknowns& z,
+                   Point& point) {
+    bool fresh = false;    // the matrix was formed in this step
+    bool stalled = false;  // the last increment did not shrink, with a fresh matrix
+    double previous = 0.0;
+    const double scale = increment_scale(z, q_n, to_double(h));
+    Unknowns r = Unknowns::Constant(T(0.0));
+    if (!factorized_ || marginal_cost_exceeds_average()) {
+      point = Equation::point(q_n, h, closure, z);
+      const auto cause = factorized_ ? FactorizationCause::refresh : FactorizationCause::first;
+      if (!factorize(t, h, point, closure, z, cause)) return failure(Outcome::singular_matrix, r);
+      fresh = true;
+    }
+    for (int iteration = 1; iteration <= max_iterations; ++iteration) {
+      point = Equation::point(q_n, h, closure, z);
+      r = Equation::residual(system_, t, h, point, z);
+      audit_.residual();
+      const Correction d = lu_.solve(to_linear(r));
+      audit_.solve();
+      z -= d.template cast<T>();
+      const double size = weighted_norm(d, z, scale);
+      if (!std::isfinite(size)) return failure(Outcome::non_finite, r);
+
+      const double rate = iteration > 1 ? size / previous : rate_;
+      if (size <= unit || rate * size <= unit) {
+        rate_ = std::min(1.0, rate * safety);
+        return finish(q_n, h, closure, z, point, iteration);
+      }
+      if (iteration > 1 && rate > slowest_rate) {
+        if (size <= noise) {
+          return finish(q_n, h, closure, z, point, iteration);
+        } else if (!fresh) {
+          if (!factorize(t, h, point, closure, z, FactorizationCause::slow_convergence))
+            return failure(Outcome::singular_matrix, r);
+          fresh = true;
+        } else if (size <= floor) {
+          return finish(q_n, h, closure, z, point, iteration);
+        } else if (stalled && rate > 1.0) {
+          return failure(Outcome::newton_diverged, r);
+        } else {
+          stalled = true;
+        }
+      } else {
+        stalled = false;
+      }
+      previous = size;
+    }
+    return failure(Outcome::newton_diverged, r);
+  }
+
+ private:
+  static constexpr int max_iterations = 60;
+  static constexpr double slowest_rate = 0.5;
+  // The rate of a factorization grows as it ages: a rate seen before counts for twice as much, so that it is
+  // seen anew before it can mislead.
+  static constexpr double safety = 2.0;
+  // In units of round-off: the tolerance; what a stalled iteration is allowed where the matrix may be old;
+  // and where it is fresh, because residual round-off reaches the unknowns through the inverse of the matrix
+  // (condition 3.6e3 for the top).
+  static constexpr double unit = 0.05;
+  static constexpr double noise = 32.0;
+  static constexpr double floor = 1e5;
+  // Cost of Jacobian and factorization in units of one iteration (residual and back-substitution), measured.
+  static constexpr double factorization_cost = 2.0;
+
+  using LinearSystem = typename S::template rebind<double>;
+  using Lu = DenseLu<double, n>;
+  using Correction = typename Lu::Vector;
+
+  static Correction to_linear(const Unknowns& r) { return r.template cast<double>(); }
+
+  // What round-off of Dq is relative to: |Dq|, and |q| / h where a constraint is present.
+  static double increment_scale(const Unknowns& z, const Configuration<S>& q_n, double h) {
+    double scale = to_linear(z).template head<m>().template lpNorm<Eigen::Infinity>();
+    if constexpr (l > 0)
+      scale += S::Group::stacked(q_n).template cast<double>().template lpNorm<Eigen::Infinity>() / h;
+    return scale;
+  }
+
+  // Increments in units of round-off of the unknowns.
+  double weighted_norm(const Correction& d, const Unknowns& z, double scale) const {
+    double size = relative(d.template head<m>().template lpNorm<Eigen::Infinity>(), scale);
+    if constexpr (l > 0) {
+      const double multiplier_scale =
+          to_linear(z).template tail<l>().template lpNorm<Eigen::Infinity>() + mass_scale_ * scale;
+      size =
+          std::max(size, relative(d.template tail<l>().template lpNorm<Eigen::Infinity>(), multiplier_scale));
+    }
+    return size;
+  }
+
+  static double relative(double value, double scale) {
+    if (value == 0.0) return 0.0;
+    const double eps = to_double(Eigen::NumTraits<T>::epsilon());
+    return value / (eps * scale + std::numeric_limits<double>::min());
+  }
+
+  template <class Closure>
+  bool factorize(const T& t, const T& h, const Point& point, const Closure& closure, const Unknowns& z,
+                 FactorizationCause cause) {
+    typename Lu::Matrix J;
+    if constexpr (std::is_same_v<T, double>) {
+      Equation::jacobian(system_, t, h, point, z, closure.velocity_derivative(),
+                         closure.scaled_acceleration_derivative(), J);
+    } else {
+      using LinearEquation = StepEquation<LinearSystem>;
+      const typename LinearEquation::Point linear_point{S::Group::template cast<double>(point.q),
+                                                        point.v.template cast<double>(),
+                                                        point.scaled_acceleration.template cast<double>()};
+      LinearEquation::jacobian(linear_system_, to_double(t), to_double(h), linear_point, to_linear(z),
+                               to_double(closure.velocity_derivative()),
+                               to_double(closure.scaled_acceleration_derivative()), J);
+    }
+    audit_.jacobian();
+    mass_scale_ = J.template topLeftCorner<m, m>().template lpNorm<Eigen::Infinity>();
+    factorized_ = lu_.factorize(J);
+    audit_.factorization(cause);
+    spent_ = factorization_cost;
+    steps_ = 0;
+    last_ = 0;
+    rate_ = 1.0;
+    return factorized_;
+  }
+
+  template <class Closure>
+  StepResult finish(const Configuration<S>& q_n, const T& h, const Closure& closure, const Unknowns& z,
+                    Point& point, int iterations) {
+    spent_ += iterations;
+    ++steps_;
+    last_ = iterations;
+    point = Equation::point(q_n, h, closure, z);
+    return {};
+  }
+
+  StepResult failure(Outcome outcome, const Unknowns& r) {
+    factorized_ = false;
+    return {outcome, to_linear(r).template lpNorm<Eigen::Infinity>()};
+  }
+
+  // A factorization is worth keeping while one more step with it costs less than the steps since it was made
+  // did on average, itself included.
+  bool marginal_cost_exceeds_average() const { return steps_ > 0 && last_ * steps_ > spent_; }
+
+  S system_;
+  LinearSystem linear_system_;
+  Lu lu_;
+  bool factorized_ = false;
+  double mass_scale_ = 0.0;
+  double rate_ = 1.0;  // contraction seen with this factorization
+  double spent_ = 0.0;
+  int steps_ = 0;  // steps since the factorization
+  int last_ = 0;   // iterations of the last one
+  [[no_unique_address]] Audit audit_;
+};
+
+}  // namespace liebench

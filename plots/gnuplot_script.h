@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "plots/figure.h"
+
+namespace liebench {
+
+/// The script that draws `figure` into `outputs`, data included. Throws std::invalid_argument as draw() does.
+std::string gnuplot_script(const Figure& figure, std::span<const std::filesystem::path> outputs);
+
+/// The same, but each of `outputs`, whose endings choose the formats, is written to the file at its place in
+/// `written_to`.
+std::string gnuplot_script(const Figure& figure, std::span<const std::filesystem::path> outputs,
+                           std::span<const std::filesystem::path> written_to);
+
+}  // namespace liebench

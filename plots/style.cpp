@@ -1,0 +1,57 @@
+#include "plots/style.h"
+
+#include <array>
+
+namespace liebench {
+namespace {
+
+struct Style {
+  std::string_view colour;
+  int filled_mark;
+  int open_mark;
+};
+
+// Okabe and Ito's colours without the yellow, which white paper swallows. The first three lie far apart in
+// luminance too (L* = 0, 46, 71), so that a figure of three curves survives a grey printer; the others fill
+// the gaps.
+constexpr std::array<Style, style_count> styles{{
+    {"#000000", 7, 6},    // black, circle
+    {"#0072B2", 5, 4},    // blue, square
+    {"#E69F00", 9, 8},    // orange, triangle
+    {"#D55E00", 13, 12},  // vermillion, diamond
+    {"#009E73", 11, 10},  // green, triangle downwards
+    {"#56B4E9", 15, 14},  // sky blue, pentagon
+    {"#CC79A7", 5, 4},    // purple, square
+}};
+
+const Style& style_of(const Series& series) {
+  const int index = series.style % style_count;
+  return styles[static_cast<std::size_t>(index < 0 ? index + style_count : index)];
+}
+
+}  // namespace
+
+std::string_view colour_of(const Series& series) {
+  return style_of(series).colour;
+}
+
+// A second variant's marks are the larger ones: a ring around the filled mark where both agree.
+Look look_of(const Series& series) {
+  const Style& style = style_of(series);
+  return series.secondary ? Look{style.colour, "(12,7)", 0.8, style.open_mark, 0.68}
+                          : Look{style.colour, "1", 1.4, style.filled_mark, 0.34};
+}
+
+Look failure_look(std::string_view colour, bool secondary) {
+  return {colour, "", secondary ? 1.0 : 1.8, 2, 0.6};
+}
+
+Look below_look(std::string_view colour) {
+  return {colour, "", 1.0, 10, 0.7};
+}
+
+Look above_look(std::string_view colour) {
+  return {colour, "", 1.0, 8, 0.7};
+}
+
+}  // namespace liebench

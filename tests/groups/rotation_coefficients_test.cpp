@@ -1,0 +1,157 @@
+#include "groups/rotation_coefficients.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "groups/extended.h"
+
+namespace liebench {
+namespace {
+
+// 100 digits: the closed forms lose at most 60 of them at x = 1e-30.
+using Wide = boost::multiprecision::cpp_bin_float_100;
+
+Wide to_wide(double x) {
+  return Wide(x);
+}
+Wide to_wide(const Extended& x) {
+  return Wide(x.x[0]) + Wide(x.x[1]);
+}
+
+// One coefficient in a scalar T and its closed form, both of x^2.
+template <class T>
+struct Coefficient {
+  std::string name;
+  std::function<T(const T&)> value;
+  std::function<Wide(const Wide&)> closed_form;
+};
+
+template <class T>
+std::vector<Coefficient<T>> coefficients() {
+  return {
+      {"sinc", [](const T& s) { return T(sinc_versine<T>(s).sinc); },
+       [](const Wide& s) -> Wide {
+         const Wide x = sqrt(s);
+         return sin(x) / x;
+       }},
+      {"versine", [](const T& s) { return T(sinc_versine<T>(s).versine); },
+       [](const Wide& s) -> Wide { return (1 - cos(sqrt(s))) / s; }},
+      {"sine_defect", [](const T& s) { return T(sine_defect<T>(s)); },
+       [](const Wide& s) -> Wide {
+         const Wide x = sqrt(s);
+         return (x - sin(x)) / (x * s);
+       }},
+      {"cotangent_defect", [](const T& s) { return T(cotangent_defect<T>(s)); },
+       [](const Wide& s) -> Wide {
+         const Wide half = sqrt(s) / 2;
+         return (1 - half * cos(half) / sin(half)) / s;
+       }},
+  };
+}
+
+// x in (0, 2 pi): a coarse sweep, its small end, and every power of two steps around both thresholds.
+std::vector<double> sweep() {
+  std::vector<double> all;
+  for (double x = 1e-30; x < 0.01; x *= 7.3) all.push_back(x);
+  for (int i = 1; i < 1250; ++i) all.push_back(0.005 * i);
+  for (const double threshold : {0.5, 2.0})
+    for (int exponent = -50; exponent <= -3; ++exponent)
+      for (const double sign : {-1.0, 1.0}) all.push_back(threshold * (1 + sign * std::ldexp(1.0, exponent)));
+  return all;
+}
+
+// The largest error over the sweep in units of eps (|f| + |x^2 f'(x^2)|): relative where f is not close to a
+// zero or pole (sinc at pi, versine and cotangent_defect at 2 pi), and elsewhere what the rounding of the
+// angle sqrt(x^2) to eps leaves of the digits.
+template <class T>
+double largest_error(const Coefficient<T>& f, double eps, const std::vector<T>& squares) {
+  double worst = 0;
+  for (const T& s : squares) {
+    const Wide exact = f.closed_form(to_wide(s));
+    const Wide step("1e-15");
+    const Wide slope = (f.closed_form(Wide(to_wide(s) * (1 + step))) - exact) / step;
+    const Wide unit = eps * (abs(exact) + abs(slope));
+    const Wide error = abs(to_wide(f.value(s)) - exact) / unit;
+    worst = std::max(worst, static_cast<double>(error));
+  }
+  return worst;
+}
+
+// Two roundings of the argument (square root, half angle), sine, cosine and three operations: four eps.
+TEST(RotationCoefficients, InDoubleAreThoseOfExtendedToFourEps) {
+  const double eps = std::numeric_limits<double>::epsilon();
+  const auto doubles = coefficients<double>();
+  const auto extended = coefficients<Extended>();
+  for (std::size_t i = 0; i < doubles.size(); ++i) {
+    // The same scale as below, with the extended value in the place of the closed form.
+    for (const double x : sweep()) {
+      const double s = x * x;
+      const Extended exact = extended[i].value(Extended(s));
+      const double slope = to_double(Extended(extended[i].value(Extended(s) * (1.0 + 0x1p-40)) - exact)) * 0x1p40;
+      const double unit = eps * (std::abs(to_double(exact)) + std::abs(slope));
+      EXPECT_LE(std::abs(to_double(Extended(doubles[i].value(s) - exact))), 4 * unit) << doubles[i].name << ' ' << x;
+    }
+  }
+}
+
+TEST(RotationCoefficients, InDoubleAreTheirClosedFormsToFourEps) {
+  std::vector<double> squares;
+  for (const double x : sweep()) squares.push_back(x * x);
+  for (const auto& f : coefficients<double>())
+    EXPECT_LE(largest_error(f, std::numeric_limits<double>::epsilon(), squares), 4.0) << f.name;
+}
+
+TEST(RotationCoefficients, InExtendedAreTheirClosedFormsToAFewEps) {
+  // Double-double operations err by up to two eps each.
+  std::vector<Extended> squares;
+  for (const double x : sweep()) squares.push_back(Extended(x) * Extended(x));
+  for (const auto& f : coefficients<Extended>())
+    EXPECT_LE(largest_error(f, to_double(Eigen::NumTraits<Extended>::epsilon()), squares), 8.0) << f.name;
+}
+
+TEST(RotationCoefficients, AtZeroAreTheLeadingTerms) {
+  EXPECT_EQ(sinc_versine(0.0).sinc, 1.0);
+  EXPECT_EQ(sinc_versine(0.0).versine, 0.5);
+  EXPECT_EQ(sine_defect(0.0), 1.0 / 6.0);
+  EXPECT_EQ(cotangent_defect(0.0), 1.0 / 12.0);
+  EXPECT_EQ(atan_ratio(0.0), 1.0);
+  EXPECT_TRUE(sine_defect(Extended(0.0)) == Extended(1.0) / 6.0);
+  EXPECT_TRUE(cotangent_defect(Extended(0.0)) == Extended(1.0) / 12.0);
+}
+
+TEST(RotationCoefficients, SeriesHaveTheCoefficientsOfTheDesign) {
+  // METHODS.md section 6, and the Bernoulli numbers: |B_2n| / (2n)!.
+  const auto& c = detail::RotationSeries<double>::sine_defect;
+  EXPECT_DOUBLE_EQ(c[1], -1.0 / 120);
+  EXPECT_DOUBLE_EQ(c[4], 1.0 / 39916800);
+  const auto& b = detail::RotationSeries<double>::versine;
+  EXPECT_DOUBLE_EQ(b[3], -1.0 / 40320);
+  const auto& d = detail::RotationSeries<double>::cotangent;
+  EXPECT_DOUBLE_EQ(d[1], 1.0 / 720);
+  EXPECT_DOUBLE_EQ(d[2], 1.0 / 30240);
+  EXPECT_DOUBLE_EQ(d[3], 1.0 / 1209600);
+  EXPECT_DOUBLE_EQ(d[4], 1.0 / 47900160);
+}
+
+TEST(RotationCoefficients, AtanRatioHoldsUpToItsReach) {
+  for (int i = 1; i <= 64; ++i) {
+    const double t_squared = atan_series_reach * i / 64;
+    const Wide t = sqrt(Wide(t_squared));
+    const Wide exact = atan(t) / t;
+    EXPECT_LE(abs(Wide(atan_ratio(t_squared)) / exact - 1), 2 * std::numeric_limits<double>::epsilon()) << i;
+    EXPECT_LE(abs(to_wide(atan_ratio(Extended(t_squared))) / exact - 1),
+              4 * to_double(Eigen::NumTraits<Extended>::epsilon()))
+        << i;
+  }
+}
+
+}  // namespace
+}  // namespace liebench
