@@ -11,22 +11,22 @@ namespace liebench {
 
 // What every group gives, all as static functions of a type that holds no state:
 //
-//   identity(), compose(a, b), inverse(a)     the group
-//   exp(v)            exp(v~), v in R^m; valid for every finite v
-//   log(q)            v with exp(v~) = q and every rotation angle in [0, pi]
-//   commutator(v, w)  the vector of [v~, w~], the operator v^ w of eq. (15)
-//   ad(v)             its matrix, m x m: ad(v) w = commutator(v, w)
-//   tangent(v)        T(v) = dexp_{-v}, m x m: d exp(v~) = exp(v~) (T(v) dv)~
-//   tangent_inverse(v)  T(v)^{-1}; singular where a rotation angle is 2 pi
-//   times_tangent(A, v)  A T(v) for A with m columns, without the products that the group's structure makes
-//   trivial stacked(q)        the representation as one vector (rotation matrices column by column), for
-//   norms cast<U>(q)        the same element in the scalar U, an element of rebind<U> rotation_angle(v) the
-//   largest rotation angle [rad] in exp(v~); 0 where nothing rotates separation(q, p)  v with p = q o exp(v~)
-//   in double, to full relative accuracy however close q and p are defect(q)         how far q is from the
-//   group (Frobenius norm of R^T R - I; 0 in linear spaces), the largest of a
-//                     product's
-//   renormalized(q)   the element next to q that satisfies the representation's own conditions, for q within
-//                     sqrt(eps) of the group (first-order correction)
+//   identity(), compose(a, b), inverse(a)   the group
+//   exp(v)               exp(v~), v in R^m; valid for every finite v
+//   log(q)               v with exp(v~) = q and every rotation angle in [0, pi]
+//   commutator(v, w)     the vector of [v~, w~], the operator v^ w of eq. (15)
+//   ad(v)                its matrix, m x m: ad(v) w = commutator(v, w)
+//   tangent(v)           T(v) = dexp_{-v}, m x m: d exp(v~) = exp(v~) (T(v) dv)~
+//   tangent_inverse(v)   T(v)^{-1}; singular where a rotation angle is 2 pi
+//   times_tangent(A, v)  A T(v) for A with m columns, without the products that the structure of T makes trivial
+//   stacked(q)           the representation as one vector (rotation matrices column by column), for norms
+//   cast<U>(q)           the same element in the scalar U, an element of rebind<U>
+//   rotation_angle(v)    the largest rotation angle [rad] in exp(v~); 0 where nothing rotates
+//   separation(q, p)     v with p = q o exp(v~) in double, to full relative accuracy however close q and p are
+//   defect(q)            how far q is from the group (||R^T R - I||_F, ||p|^2 - 1|; 0 in linear spaces), the
+//                        largest of a product's
+//   renormalized(q)      the element next to q that satisfies the conditions of the representation, for q within
+//                        sqrt(eps) of the group (first-order correction)
 //
 // Flags: `commutative` (every commutator vanishes: no method may compute one).
 template <class G>

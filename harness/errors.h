@@ -10,11 +10,16 @@ namespace liebench {
 class InputError : public std::runtime_error {
  public:
   InputError(const std::string& place, const std::string& message)
-      : std::runtime_error(place.empty() ? message : place + ": " + message), place_(place) {}
+      : std::runtime_error(place.empty() ? message : place + ": " + message),
+        place_(place),
+        message_(message) {}
   const std::string& place() const { return place_; }
+  // Without the place.
+  const std::string& message() const { return message_; }
 
  private:
   std::string place_;
+  std::string message_;
 };
 
 // The machine failed, not the input and not a method: disk full, folder not writable, gnuplot missing. Exit

@@ -1,7 +1,10 @@
 #include "harness/execute.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -17,26 +20,32 @@ namespace liebench {
 
 namespace {
 
-// Runs that differ in nothing but method and grid share one reference, made for the longest of them.
+// The interval of the reference that serves a run: the next of 0.1, 0.2, 0.5, 1, 2, 5, 10, ... s. It depends on the run
+// alone, so that a record does not depend on what else is run, and few intervals serve all runs.
+double reference_duration(const RunSpec& run) {
+  const double least = run.duration() * (1.0 - 1e-12);
+  for (int exponent = -1;; ++exponent)
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double duration = digit * std::pow(10.0, exponent);
+      if (duration >= least) return duration;
+    }
+}
+
+// Runs that differ in nothing but method and grid share one reference.
 std::string reference_key(const RunSpec& run) {
-  return std::string(run.problem->name) + run.parameters.dump();
+  return fmt::format("{}{}{}", run.problem->name, run.parameters.dump(), reference_duration(run));
 }
 
 using PreparedProblems = std::map<std::string, std::shared_ptr<const PreparedProblem>>;
 
 PreparedProblems prepare(const std::vector<RunSpec>& runs, const ReferenceCache& cache, Progress& progress) {
-  std::map<std::string, std::pair<const RunSpec*, double>> longest;
-  for (const RunSpec& run : runs) {
-    // Eq. (56) looks at one point beyond the starting values, so at least k + 1 steps.
-    const double duration = run.step_size() * double(run.request.steps + 1);
-    auto& entry = longest.try_emplace(reference_key(run), &run, 0.0).first->second;
-    entry.second = std::max(entry.second, duration);
-  }
   PreparedProblems prepared;
-  for (const auto& [key, entry] : longest) {
-    const auto message = [&](std::string_view text) { progress.message(std::string(text)); };
+  const auto message = [&](std::string_view text) { progress.message(std::string(text)); };
+  for (const RunSpec& run : runs) {
+    const auto [place, fresh] = prepared.try_emplace(reference_key(run));
+    if (!fresh) continue;
     try {
-      prepared[key] = entry.first->problem->prepare(entry.first->parameters, entry.second, cache, message);
+      place->second = run.problem->prepare(run.parameters, reference_duration(run), cache, message);
     } catch (const std::exception& error) {
       throw MachineError("no reference solution: " + std::string(error.what()));
     }

@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "harness/errors.h"
 #include "harness/heavy_top_runs.h"
@@ -11,6 +13,12 @@
 namespace liebench {
 
 namespace {
+
+// Beyond these a reference solution loses its digits or its patience, and no top is there.
+constexpr double largest_value = 1e6;
+constexpr double smallest_value = 1e-6;
+// The reference turns through so many radians a second of computing time, about: 250.
+constexpr double most_radians = 5e4;
 
 std::array<double, 3> vector3(const JsonView& view) {
   constexpr std::string_view allowed = "a list of 3 finite numbers";
@@ -52,8 +60,9 @@ HeavyTopParameters::Matrix inertia(const JsonView& view) {
 }
 
 double positive(const JsonView& view) {
-  const double x = view.number("a positive number");
-  if (!(x > 0.0)) view.reject("a positive number");
+  const std::string allowed = fmt::format("a positive number from {} to {}", smallest_value, largest_value);
+  const double x = view.number(allowed);
+  if (!(x >= smallest_value && x <= largest_value)) view.reject(allowed);
   return x;
 }
 
@@ -77,6 +86,23 @@ Json to_json(const HeavyTopParameters& p) {
   j["orientation"] = p.orientation;
   j["angular_velocity"] = p.angular_velocity;
   return j;
+}
+
+// The largest rate of the motion, rad/s: the spin, and the swing under gravity.
+double fastest_rate(const HeavyTopParameters& p) {
+  const HeavyTopData<double> data(p);
+  const double smallest_moment =
+      data.inertia_about_tip().selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
+  return data.omega0.norm() +
+         std::sqrt(data.mass * data.center_of_mass.norm() * data.gravity.norm() / smallest_moment);
+}
+
+std::string obstacle(const Json& parameters, double duration) {
+  const double rate = fastest_rate(from_json({parameters, ""}));
+  if (rate * duration <= most_radians) return {};
+  return fmt::format(
+      "a reference solution over {:.3g} s of this motion would take too long; allowed: up to {:.3g} s",
+      duration, most_radians / rate);
 }
 
 class HeavyTop final : public PreparedProblem {
@@ -126,6 +152,7 @@ ProblemInfo heavy_top_info() {
                     {"mass", "inertia", "center_of_mass", "gravity", "orientation", "angular_velocity"});
                 return to_json(from_json(view));
               },
+          .obstacle = obstacle,
           .prepare = [](const Json& parameters, double duration, const ReferenceCache& cache,
                         const MessageCallback& message) -> std::shared_ptr<const PreparedProblem> {
             return std::make_shared<HeavyTop>(

@@ -48,6 +48,9 @@ struct ProblemInfo {
   // The parameters of a study, checked and completed by defaults, in the order of the list above. Throws
   // InputError.
   std::function<Json(const JsonView&)> complete;
+  // Why no reference solution over [0, duration] can be had for these parameters in reasonable time: a sentence with
+  // what is allowed; empty where there is no obstacle.
+  std::function<std::string(const Json& parameters, double duration)> obstacle;
   // Makes the reference solution over [0, duration] (or takes it from the cache). Throws std::runtime_error
   // where none can be made.
   std::function<std::shared_ptr<const PreparedProblem>(const Json& parameters, double duration,

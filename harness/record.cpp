@@ -55,17 +55,18 @@ Json make_record(const RunSpec& run, const RunResult& result, const PreparedProb
   j["steps"] = run.request.steps;
   j["t_0"] = run.t_0;
   j["t_end"] = run.t_end;
+  if (run.local_steps > 0) j["local_steps"] = run.local_steps;
   j["outcome"] = name(result.outcome);
   if (result.failure) {
     Json& failure = j["failure"];
     failure["time"] = run.t_0 + result.failure->time;
     failure["step"] = result.failure->step;
-    // The residual itself may have overflowed.
+    // Absent where it overflowed, and where the failure has none.
     if (std::isfinite(result.failure->residual)) failure["residual"] = result.failure->residual;
     failure["message"] = result.failure->message;
   }
   j["reference"]["method"] = problem.reference_method();
-  j["reference"]["error_estimate"] = problem.reference_error();
+  j["reference"]["error_estimate"] = finite(problem.reference_error(), "reference.error_estimate");
   if (result.q) {
     Json& errors = j["errors"];
     errors["q"] = norms(*result.q);
@@ -84,6 +85,36 @@ Json make_record(const RunSpec& run, const RunResult& result, const PreparedProb
   return j;
 }
 
+Json parse_record(std::string_view line, const std::string& place) {
+  Json record = parse_json(line, place);
+  if (!record.is_object() || !record.contains("schema") || !record.contains("key"))
+    throw InputError(place, "is not a record of liebench: the keys \"schema\" and \"key\" are missing");
+  if (record["schema"] != record_schema)
+    throw InputError(place, fmt::format("record schema {}; this program reads {}", record["schema"].dump(),
+                                        record_schema));
+  // What tables and plots rely on.
+  const auto require = [&](const Json& object, const char* key, bool (Json::*is)() const noexcept) {
+    if (!object.contains(key) || !(object[key].*is)())
+      throw InputError(
+          place, fmt::format("is not a whole record of liebench: \"{}\" is missing or of another type", key));
+  };
+  for (const char* key :
+       {"key", "study", "problem", "formulation", "integrator", "start", "precision", "outcome"})
+    require(record, key, &Json::is_string);
+  for (const char* key : {"parameters", "options", "reference", "cost"})
+    require(record, key, &Json::is_object);
+  for (const char* key : {"step_size", "steps", "t_0", "t_end"}) require(record, key, &Json::is_number);
+  require(record["reference"], "error_estimate", &Json::is_number);
+  if (record["outcome"] == "ok") {
+    require(record, "errors", &Json::is_object);
+  } else {
+    require(record, "failure", &Json::is_object);
+    require(record["failure"], "time", &Json::is_number);
+    require(record["failure"], "message", &Json::is_string);
+  }
+  return record;
+}
+
 std::vector<Json> read_records(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::error_code code;
@@ -95,13 +126,7 @@ std::vector<Json> read_records(const std::filesystem::path& file) {
     ++number;
     if (line.empty()) continue;
     const std::string place = fmt::format("{}:{}", file.string(), number);
-    Json record = parse_json(line, place);
-    if (!record.is_object() || !record.contains("schema") || !record.contains("key"))
-      throw InputError(place, "is not a record of liebench: the keys \"schema\" and \"key\" are missing");
-    if (record["schema"] != record_schema)
-      throw InputError(place, fmt::format("record schema {}; this program reads {}", record["schema"].dump(),
-                                          record_schema));
-    records.push_back(std::move(record));
+    records.push_back(parse_record(line, place));
   }
   return records;
 }

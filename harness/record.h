@@ -16,6 +16,9 @@ inline constexpr int record_schema = 1;
 Json make_record(const RunSpec& run, const RunResult& result, const PreparedProblem& problem,
                  const Json& provenance);
 
+// The record on one line of a file, `place`. Throws InputError where it is none of this schema.
+Json parse_record(std::string_view line, const std::string& place);
+
 // All records of a JSON Lines file in the order of its lines. Throws InputError that names file and line
 // where one is not a record of this schema.
 std::vector<Json> read_records(const std::filesystem::path& file);

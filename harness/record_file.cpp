@@ -9,8 +9,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <set>
-#include <sstream>
+#include <utility>
 
 #include "harness/errors.h"
 #include "harness/record.h"
@@ -34,27 +35,36 @@ void write_all(int descriptor, std::string_view text, const std::filesystem::pat
   }
 }
 
-}  // namespace
+std::filesystem::path temporary_name(const std::filesystem::path& file) {
+  return file.string() + fmt::format(".{}.tmp", ::getpid());
+}
 
-void write_whole(const std::filesystem::path& file, std::string_view text) {
-  const std::filesystem::path temporary = file.string() + fmt::format(".{}.tmp", ::getpid());
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor < 0) fail(file, "cannot write");
+// Writes the text into the open temporary file, flushes it to the disk and gives it its name; removes it where that fails.
+void replace(int descriptor, const std::filesystem::path& temporary, std::string_view text,
+             const std::filesystem::path& file) {
   try {
     write_all(descriptor, text, file);
     if (::fsync(descriptor) != 0 && errno != EINVAL) fail(file, "cannot write");
+    if (::rename(temporary.c_str(), file.c_str()) != 0) fail(file, "cannot write");
   } catch (...) {
-    ::close(descriptor);
     ::unlink(temporary.c_str());
     throw;
   }
-  ::close(descriptor);
-  if (::rename(temporary.c_str(), file.c_str()) != 0) {
-    const int error = errno;
-    ::unlink(temporary.c_str());
-    errno = error;
-    fail(file, "cannot write");
-  }
+}
+
+// A line that was cut off begins as every record does.
+bool begins_like_record(std::string_view text) {
+  constexpr std::string_view beginning = R"({"schema":)";
+  return text.substr(0, beginning.size()) == beginning.substr(0, text.size());
+}
+
+}  // namespace
+
+void write_whole(const std::filesystem::path& file, std::string_view text) {
+  const std::filesystem::path temporary = temporary_name(file);
+  const FileDescriptor descriptor(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+  if (descriptor.value() < 0) fail(file, "cannot write");
+  replace(descriptor.value(), temporary, text, file);
 }
 
 void require_writable_folder(const std::filesystem::path& folder) {
@@ -69,46 +79,53 @@ void require_writable_folder(const std::filesystem::path& folder) {
   ::unlink(probe.c_str());
 }
 
+FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept {
+  std::swap(value_, other.value_);
+  return *this;
+}
+
+FileDescriptor::~FileDescriptor() {
+  if (value_ >= 0) ::close(value_);
+}
+
 RecordFile::RecordFile(std::filesystem::path file) : file_(std::move(file)) {
-  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (descriptor_ < 0) fail(file_, "cannot write");
+  std::error_code code;
+  // A device would be read without end.
+  const auto kind = std::filesystem::status(file_, code).type();
+  if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::regular &&
+      kind != std::filesystem::file_type::directory)
+    throw InputError(file_.string(), "is not a file; name one by --out");
+  descriptor_ = FileDescriptor(::open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+  if (descriptor_.value() < 0) fail(file_, "cannot write");
   // Two processes on one file would run the same rows twice.
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0)
+  if (::flock(descriptor_.value(), LOCK_EX | LOCK_NB) != 0)
     throw MachineError(fmt::format("{}: another liebench is writing this file", file_.string()));
   std::ifstream stream(file_, std::ios::binary);
-  std::ostringstream content;
-  content << stream.rdbuf();
-  const std::string text = content.str();
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
   std::size_t begin = 0, number = 0;
   while (begin < text.size()) {
     ++number;
     const std::size_t end = text.find('\n', begin);
-    if (end == std::string::npos) {
-      fmt::print(stderr, "{}:{}: a torn line of {} bytes is dropped; its run is done again\n", file_.string(),
-                 number, text.size() - begin);
-      if (::ftruncate(descriptor_, off_t(begin)) != 0) fail(file_, "cannot write");
+    const std::string place = fmt::format("{}:{}", file_.string(), number);
+    if (end == std::string::npos && begins_like_record(text.substr(begin))) {
+      fmt::print(stderr, "{}: a torn line of {} bytes is dropped; its run is done again\n", place,
+                 text.size() - begin);
+      if (::ftruncate(descriptor_.value(), off_t(begin)) != 0) fail(file_, "cannot write");
       break;
     }
     const std::string line = text.substr(begin, end - begin);
-    begin = end + 1;
+    begin = end == std::string::npos ? text.size() : end + 1;
     if (line.empty()) continue;
-    const std::string place = fmt::format("{}:{}", file_.string(), number);
-    const Json record = parse_json(line, place);
-    if (!record.is_object() || !record.contains("key") || !record["key"].is_string())
-      throw InputError(place, "is not a record of liebench; name another file by --out");
+    const Json record = parse_record(line, place);
     const auto key = record["key"].get<std::string>();
     if (lines_.emplace(key, line).second) sequence_.push_back(key);
   }
 }
 
-RecordFile::~RecordFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 void RecordFile::append(const Json& record) {
   const std::string line = record.dump();
   const auto key = record.at("key").get<std::string>();
-  write_all(descriptor_, line + '\n', file_);
+  write_all(descriptor_.value(), line + '\n', file_);
   if (lines_.emplace(key, line).second) sequence_.push_back(key);
 }
 
@@ -123,7 +140,12 @@ void RecordFile::sort(const std::vector<std::string>& keys) {
   };
   for (const std::string& key : keys) add(key);
   for (const std::string& key : sequence_) add(key);
-  write_whole(file_, text);
+  // The new file is locked before it takes the name of the old one.
+  const std::filesystem::path temporary = temporary_name(file_);
+  FileDescriptor next(::open(temporary.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644));
+  if (next.value() < 0 || ::flock(next.value(), LOCK_EX | LOCK_NB) != 0) fail(file_, "cannot write");
+  replace(next.value(), temporary, text, file_);
+  descriptor_ = std::move(next);
 }
 
 }  // namespace liebench

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/strict_json.h"
@@ -16,6 +17,20 @@ void write_whole(const std::filesystem::path& file, std::string_view text);
 // Throws MachineError unless files can be made in the folder, which is created where it is missing.
 void require_writable_folder(const std::filesystem::path& folder);
 
+// An open file, closed at the end of its life.
+class FileDescriptor {
+ public:
+  FileDescriptor() = default;
+  explicit FileDescriptor(int value) : value_(value) {}
+  FileDescriptor(FileDescriptor&& other) noexcept { *this = std::move(other); }
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept;
+  ~FileDescriptor();
+  int value() const { return value_; }
+
+ private:
+  int value_ = -1;
+};
+
 // A growing file of records. Each record is appended whole, in one write, when its run ends, so that a run
 // that is killed loses nothing that had ended; `sort` then brings the file into the order of the study.
 class RecordFile {
@@ -24,9 +39,6 @@ class RecordFile {
   // dropped with a message on standard error. Throws InputError where the file holds anything else that is
   // not a record, MachineError where it cannot be written.
   explicit RecordFile(std::filesystem::path file);
-  ~RecordFile();
-  RecordFile(const RecordFile&) = delete;
-  RecordFile& operator=(const RecordFile&) = delete;
 
   bool has(const std::string& key) const { return lines_.contains(key); }
   void append(const Json& record);
@@ -36,7 +48,7 @@ class RecordFile {
 
  private:
   std::filesystem::path file_;
-  int descriptor_ = -1;
+  FileDescriptor descriptor_;                 // holds the lock
   std::map<std::string, std::string> lines_;  // by key, without the line's end
   std::vector<std::string> sequence_;         // keys in the order of the file
 };

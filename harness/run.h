@@ -30,8 +30,8 @@ struct ErrorNorms {
   double max_absolute = 0.0;
 };
 
-// Largest deviations from what the exact solution keeps, over at most about 1000 equidistant steps and the
-// last.
+// Largest deviations from what the exact solution keeps, over 1000 to 2000 equidistant steps (all, where a run has
+// fewer) and the last.
 struct Drift {
   double energy = 0.0;                        // |E_n - E(t_0)|, J
   std::optional<double> position_constraint;  // max-norm of Phi(q_n)

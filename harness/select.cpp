@@ -15,6 +15,9 @@ Json identity_of(const Json& record) {
   for (const char* key :
        {"problem", "formulation", "parameters", "integrator", "options", "start", "precision", "t_0"})
     if (record.contains(key)) id[key] = record[key];
+  // Runs over a fixed number of steps end elsewhere for every step size.
+  const char* length = record.contains("local_steps") ? "local_steps" : "t_end";
+  if (record.contains(length)) id[length] = record[length];
   return id;
 }
 

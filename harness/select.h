@@ -28,7 +28,8 @@ std::optional<double> error_of(const Json& record, const Quantity& quantity);
 // Records of one curve: they differ in the step size alone.
 struct Curve {
   std::string label;  // what sets it apart from the other curves of its set
-  Json identity;      // problem, formulation, parameters, integrator, options, start, precision, t_0, t_end
+  Json
+      identity;  // problem, formulation, parameters, integrator, options, start, precision, t_0, t_end or local_steps
   std::vector<const Json*> records;  // by falling step size
 };
 

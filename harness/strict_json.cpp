@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <numeric>
-#include <sstream>
+#include <set>
 
 #include "harness/errors.h"
 
@@ -85,14 +86,20 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& al
 }
 
 Json parse_json(std::string_view text, const std::string& source) {
-  // The parser recurses: refuse what no study needs before it does.
-  const auto too_deep = [](int depth, Json::parse_event_t event, Json&) {
+  // The parser recurses: refuse what no study needs before it does. Of two equal keys it would keep one silently.
+  std::vector<std::set<std::string>> keys;
+  const auto check = [&](int depth, Json::parse_event_t event, Json& parsed) {
     if (depth > deepest_nesting && event != Json::parse_event_t::value)
       throw InputError("", fmt::format("nested deeper than {} levels", deepest_nesting));
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
+      throw InputError("",
+                       fmt::format("the key \"{}\" stands twice in one object", parsed.get<std::string>()));
     return true;
   };
   try {
-    return Json::parse(text, too_deep);
+    return Json::parse(text, check);
   } catch (const InputError& error) {
     throw InputError(source, error.what());
   } catch (const Json::exception& error) {
@@ -111,10 +118,11 @@ Json read_json_file(const std::filesystem::path& file) {
   if (!code && size > largest_file)
     throw InputError(file.string(), fmt::format("{} bytes; at most {} are allowed", size, largest_file));
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || std::filesystem::is_directory(file, code) || !(text << stream.rdbuf()))
+  if (!stream || std::filesystem::is_directory(file, code))
     throw InputError(file.string(), "cannot be read; a JSON file is expected here");
-  return parse_json(text.str(), file.string());
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (stream.bad()) throw InputError(file.string(), "cannot be read; a JSON file is expected here");
+  return parse_json(text, file.string());
 }
 
 JsonView JsonView::operator[](const std::string& key) const {

@@ -11,7 +11,7 @@
 
 namespace liebench {
 
-using Json = nlohmann::ordered_json;  // keeps the order of keys: records read as INTERFACES says
+using Json = nlohmann::ordered_json;  // keeps the order of keys: records read in the order of docs/records.md
 
 // The word of `allowed` that a mistyped `word` most likely means; empty where none is near.
 std::string nearest(std::string_view word, const std::vector<std::string>& allowed);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "groups/decimal.h"
@@ -13,6 +14,8 @@
 namespace liebench {
 
 namespace {
+
+constexpr int most_step_sizes = 1000;
 
 struct ProblemChoice {
   const ProblemInfo* problem;
@@ -51,22 +54,40 @@ const Info& by_name(const std::vector<Info>& list, const JsonView& view, std::st
   return *std::find_if(list.begin(), list.end(), [&](const Info& info) { return info.name == word; });
 }
 
+// One set of parameters, and where those of its values stand that come out of a list.
+struct ParameterSet {
+  Json values;
+  std::map<std::string, std::string> places;  // pointer of the parameter -> pointer of the element
+};
+
 // Parameters whose own shape is a number may be lists; the product of all of them.
-std::vector<Json> expand_parameters(const ProblemInfo& problem, const JsonView& view) {
-  std::vector<Json> expanded{view.value()};
+std::vector<ParameterSet> expand_parameters(const ProblemInfo& problem, const JsonView& view) {
+  std::vector<ParameterSet> expanded{{view.value(), {}}};
   for (const ParameterInfo& info : problem.parameters) {
     const std::string key(info.name);
     if (!info.fallback.is_number() || !view.has(key) || !view[key].is_array()) continue;
-    view[key].require_array();
-    std::vector<Json> next;
-    for (const Json& parameters : expanded)
-      for (const Json& value : view[key].value()) {
-        next.push_back(parameters);
-        next.back()[key] = value;
+    const JsonView list = view[key];
+    list.require_array();
+    std::vector<ParameterSet> next;
+    for (const ParameterSet& set : expanded)
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        next.push_back(set);
+        next.back().values[key] = list[i].value();
+        next.back().places[list.pointer()] = list[i].pointer();
       }
     expanded = std::move(next);
   }
   return expanded;
+}
+
+Json complete(const ProblemInfo& problem, const ParameterSet& set, const std::string& pointer) {
+  try {
+    return problem.complete({set.values, pointer});
+  } catch (const InputError& error) {
+    const auto place = set.places.find(error.place());
+    if (place == set.places.end()) throw;
+    throw InputError(place->second, error.message());
+  }
 }
 
 std::vector<ProblemChoice> read_problems(const JsonView& list) {
@@ -86,8 +107,8 @@ std::vector<ProblemChoice> read_problems(const JsonView& list) {
         entry.has("parameters") ? entry["parameters"] : JsonView(none, entry.pointer() + "/parameters");
     if (!parameters.value().is_object()) parameters.reject("an object");
     std::vector<Json> sets;
-    for (const Json& set : expand_parameters(problem, parameters))
-      sets.push_back(problem.complete({set, parameters.pointer()}));
+    for (const ParameterSet& set : expand_parameters(problem, parameters))
+      sets.push_back(complete(problem, set, parameters.pointer()));
     for (const FormulationInfo* formulation : formulations)
       for (const Json& set : sets) choices.push_back({&problem, formulation, set});
   }
@@ -143,7 +164,10 @@ std::vector<StepSize> read_step_sizes(const JsonView& view) {
     const double from = positive_step(view["from"]), to = positive_step(view["to"]);
     const int per_decade = view["per_decade"].integer_in(1, 100);
     if (to > from) view["to"].reject(fmt::format("at most \"from\", {}", from));
-    const int count = int(std::floor(std::log10(from / to) * per_decade + 1e-9)) + 1;
+    const double exact_count = std::floor((std::log10(from) - std::log10(to)) * per_decade + 1e-9) + 1.0;
+    if (exact_count > most_step_sizes)
+      view.reject(fmt::format("at most {} step sizes; this is {:.0f}", most_step_sizes, exact_count));
+    const int count = int(exact_count);
     for (int i = 0; i < count; ++i)
       sizes.push_back({from * std::pow(10.0, -double(i) / per_decade), view.pointer()});
     return sizes;
@@ -179,7 +203,7 @@ void set_grid(RunSpec& run, const Interval& interval, const StepSize& size, cons
   run.t_0 = interval.t_0;
   const int k = start_steps(choice);
   if (interval.local_steps > 0) {
-    run.local = true;
+    run.local_steps = interval.local_steps;
     run.request.step_size = decimal<Extended>(size.value);
     run.request.steps = std::uint64_t(k - 1 + interval.local_steps);
     run.t_end = interval.t_0 + double(run.request.steps) * size.value;
@@ -209,6 +233,10 @@ std::string_view name(Precision precision) {
   return precision == Precision::extended ? "extended" : "double";
 }
 
+double RunSpec::duration() const {
+  return step_size() * double(request.steps);
+}
+
 Json RunSpec::canonical_input() const {
   Json j;
   j["numerical_version"] = numerical_version;
@@ -222,7 +250,7 @@ Json RunSpec::canonical_input() const {
   j["t_0"] = t_0;
   j["steps"] = request.steps;
   // The step size of an interval follows from its ends and the number of steps; that of local runs is given.
-  if (local)
+  if (local_steps > 0)
     j["step_size"] = requested_step_size;
   else
     j["t_end"] = t_end;
@@ -271,6 +299,8 @@ Study read_study(const Json& json) {
           run.precision = precision;
           run.start = start;
           set_grid(run, interval, size, method);
+          const std::string obstacle = run.problem->obstacle(run.parameters, run.duration());
+          if (!obstacle.empty()) throw InputError(run.local_steps > 0 ? size.pointer : "/t_end", obstacle);
           // Two ways to say the same run are one run.
           if (keys.insert(run.key()).second) study.runs.push_back(std::move(run));
         }

@@ -27,9 +27,10 @@ struct RunSpec {
   double requested_step_size = 0.0;  // as the study has it, s
   double t_0 = 0.0;                  // s
   double t_end = 0.0;                // s
-  bool local = false;                // a fixed number of steps instead of a fixed interval
+  int local_steps = 0;  // steps after the start instead of a fixed interval; 0: the interval counts
 
   double step_size() const { return to_double(request.step_size); }
+  double duration() const;  // from t_0 to the end, s
   // Everything that the numbers of the run depend on, in canonical form: the record's key is its hash.
   Json canonical_input() const;
   std::string key() const;

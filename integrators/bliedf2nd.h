@@ -96,44 +96,78 @@ class BLieDF2nd::Stepper {
   static constexpr int starting_points = k + 1;
 
   Stepper(const S& system, const Options& options)
-      : options_(options), coefficients_(bdf_coefficients<k, T>()), newton_(system) {}
+      : options_(options), coefficients_(bdf_coefficients<k, T>()), newton_(system) {
+    lambda_.setConstant(T(0.0));
+    for (Velocity<S>* v : {&velocity_, &increment_, &correction_, &first_change_}) v->setConstant(T(0.0));
+  }
 
   // Eq. (21): q_{k-1}, increments Dq_0 ... Dq_{k-2} by k - 1 logarithms, v_0 ... v_{k-1}; and eq. (56) where
   // asked for.
   StepResult start(const T& h, std::span<const SolutionPoint<S>> points) {
     h_ = h;
-    for (int j = 0; j < k; ++j) {
-      const SolutionPoint<S>& p = points[std::size_t(j)];
-      velocities_.push(p.v);
-      if (j > 0) increments_.push(increment(points, j - 1));
-    }
+    // The logarithms below are those of the motion only while it turns by less than pi in a step.
+    if constexpr (k > 1)
+      for (const SolutionPoint<S>& p : points)
+        if (!(to_double(Group::rotation_angle(h * p.v)) < std::numbers::pi))
+          return {Outcome::rotation_too_large};
     const SolutionPoint<S>& last = points[std::size_t(k - 1)];
     t_ = last.t;
     q_ = last.q;
+    velocity_ = last.v;
     lambda_ = last.lambda;
     scaled_lambdas_.push(h_ * lambda_);
+    // sum_{i=2}^k gamma_i Dq_{k-i} - h^2 L_k: what (20b) at t_k takes from the starting values.
+    Velocity<S> known = Velocity<S>::Constant(T(0.0));
+    // With one step there is no increment yet; v_0 is next to the first one.
+    increment_ = points[0].v;
+    for (int j = 1; j < k; ++j) {
+      velocity_changes_.push(points[std::size_t(j)].v - points[std::size_t(j - 1)].v);
+      const Velocity<S> increment = increment_between(points, j - 1);
+      if (j > 1) increment_changes_.push(increment - increment_);
+      increment_ = increment;
+      known += coefficients_.gamma[std::size_t(k - j)] * increment;
+    }
+    if (has_correction()) {
+      correction_ = scaled_correction();
+      known -= correction_;
+    }
     if constexpr (S::constraints > 0)
-      if (options_.modified_start) return modify_starting_velocities(points);
+      if (options_.modified_start) {
+        const StepResult modified = modify_starting_velocities(points, known);
+        if (modified.outcome != Outcome::ok) return modified;
+        if (has_correction()) {
+          // L_k takes the modified velocity from the first step on.
+          known += correction_;
+          correction_ = scaled_correction();
+          known -= correction_;
+        }
+      }
+    first_change_ = coefficients_.gamma[0] * increment_ + known - velocity_;
+    first_ = true;
     return {};
   }
 
   // t_n -> t_{n+1}
   StepResult step() {
-    const AffineClosure<S> closure = this->closure();
+    constexpr int m = Group::dimension;
+    const AffineClosure<S> closure = next_closure();
     typename NewtonKernel<S, Audit>::Unknowns z;
-    z.template head<Group::dimension>() = predicted_increment(closure);
+    z.template head<m>() = predicted_change(closure);
     if constexpr (S::constraints > 0) z.template tail<S::constraints>() = scaled_lambdas_.extrapolated();
     const T t = t_ + h_;
     typename NewtonKernel<S, Audit>::Point point;
     const StepResult result = newton_.solve(t, h_, q_, closure, z, point);
     if (result.outcome != Outcome::ok) return result;
-    const Velocity<S> increment = z.template head<Group::dimension>();
-    if (!(to_double(Group::rotation_angle(h_ * increment)) < std::numbers::pi))
-      return {Outcome::rotation_too_large, result.residual};
+    if (!(to_double(Group::rotation_angle(point.step)) < std::numbers::pi))
+      return {Outcome::rotation_too_large};
+    const Velocity<S> change = z.template head<m>();
     t_ = t;
     q_ = point.q;
-    velocities_.push(point.v);
-    increments_.push(increment);
+    velocity_ = point.v;
+    velocity_changes_.push(closure.change_of_velocity(change));
+    increment_ += change;
+    increment_changes_.push(change);
+    first_ = false;
     if constexpr (S::constraints > 0) {
       const Multipliers<S> scaled_lambda = z.template tail<S::constraints>();
       lambda_ = scaled_lambda / h_;
@@ -144,78 +178,98 @@ class BLieDF2nd::Stepper {
 
   const T& time() const { return t_; }
   const Configuration<S>& configuration() const { return q_; }
-  const Velocity<S>& velocity() const { return velocities_[0]; }
+  const Velocity<S>& velocity() const { return velocity_; }
   const Multipliers<S>& multipliers() const { return lambda_; }
   const Audit& audit() const { return newton_.audit(); }
 
  private:
-  // Points beyond the method's own k: they sharpen the prediction.
-  static constexpr int extra = 2;
-
-  Velocity<S> increment(std::span<const SolutionPoint<S>> points, int j) const {
+  // Dq_j = log(q_j^{-1} o q_{j+1}) / h
+  Velocity<S> increment_between(std::span<const SolutionPoint<S>> points, int j) const {
     const auto& from = points[std::size_t(j)].q;
     const auto& to = points[std::size_t(j + 1)].q;
     return Group::log(Group::compose(Group::inverse(from), to)) / h_;
   }
 
-  // v = gamma_1 Dq_n + sum_{i=2}^k gamma_i Dq_{n+1-i} - h^2 L_k,   h v' = sum_{i=0}^k alpha_i v_{n+1-i}
+  bool has_correction() const { return k >= 3 && !Group::commutative && options_.correction; }
+
+  // Eqs. (20b) and (20c) in differences. With d_j = Dq_j - Dq_{j-1}, and by (5),
   //
-  // The second sum is evaluated as sum_{i=1}^k gamma_i (v_{n+2-i} - v_{n+1-i}), eq. (5): rounded alpha_i do
-  // not add up to zero, and the acceleration eps |v| / h that they make of a constant velocity acts in every
-  // step in the same direction (at h = 1e-5 s it ruled all errors below 1e-8).
-  AffineClosure<S> closure() const {
+  //   v_{n+1} - v_n = sum_{i=1}^k gamma_i d_{n+1-i} - h^2 (L_k(v_n, ...) - L_k(v_{n-1}, ...))
+  //   h v'          = sum_{i=1}^k gamma_i (v_{n+2-i} - v_{n+1-i})
+  //
+  // which is the same method in exact arithmetic. As sum_{i=0}^k alpha_i v_{n+1-i} the second sum would make
+  // an acceleration of eps |v| / h out of a constant velocity, in every step in the same direction: at
+  // h = 1e-5 s it ruled all errors below 1e-8 (docs/theory.md). In the first step v_{n+1} - v_n comes from
+  // the starting values.
+  AffineClosure<S> next_closure() {
     const auto& gamma = coefficients_.gamma;
-    Velocity<S> offset = Velocity<S>::Constant(T(0.0));
-    for (std::size_t i = 1; i < std::size_t(k); ++i) offset += gamma[i] * increments_[int(i) - 1];
-    if constexpr (k >= 3 && !Group::commutative)
-      if (options_.correction) offset -= scaled_correction();
-    Velocity<S> acceleration = gamma[0] * (offset - velocities_[0]);
-    for (std::size_t i = 1; i < std::size_t(k); ++i)
-      acceleration += gamma[i] * (velocities_[int(i) - 1] - velocities_[int(i)]);
-    return {gamma[0], offset, gamma[0] * gamma[0], acceleration};
+    Velocity<S> change = first_change_;
+    if (!first_) {
+      change.setConstant(T(0.0));
+      for (int i = 1; i < k; ++i) change += gamma[std::size_t(i)] * increment_changes_[i - 1];
+      if (has_correction()) {
+        const Velocity<S> correction = scaled_correction();
+        change -= correction - correction_;
+        correction_ = correction;
+      }
+    }
+    Velocity<S> acceleration = gamma[0] * change;
+    for (int i = 1; i < k; ++i) acceleration += gamma[std::size_t(i)] * velocity_changes_[i - 1];
+    return {.base = increment_,
+            .velocity = velocity_,
+            .velocity_slope = gamma[0],
+            .velocity_change = change,
+            .acceleration_slope = gamma[0] * gamma[0],
+            .scaled_acceleration = acceleration};
   }
 
   // h^2 L_k, eq. (22): one commutator.
   Velocity<S> scaled_correction() const {
-    const auto& v = velocities_;
-    Velocity<S> scaled_derivative;  // h v'
-    if constexpr (k == 3) {
-      scaled_derivative = (T(3.0) * v[0] - T(4.0) * v[1] + v[2]) / T(2.0);
-    } else {
-      scaled_derivative = (T(7.0) * (v[0] - v[1]) - T(3.0) * (v[2] - v[3])) / T(4.0);
-    }
-    return (h_ / T(12.0)) * Group::commutator(v[0], scaled_derivative);
+    const auto& dv = velocity_changes_;                             // v_n - v_{n-1}, v_{n-1} - v_{n-2}, ...
+    Velocity<S> scaled_derivative = Velocity<S>::Constant(T(0.0));  // h v'
+    if constexpr (k == 3) scaled_derivative = (T(3.0) * dv[0] - dv[1]) / T(2.0);
+    if constexpr (k == 4) scaled_derivative = (T(7.0) * dv[0] - T(3.0) * dv[2]) / T(4.0);
+    return (h_ / T(12.0)) * Group::commutator(velocity_, scaled_derivative);
   }
 
-  // From the extrapolated velocity through the closure: exact to the order of the method and beyond.
-  Velocity<S> predicted_increment(const AffineClosure<S>& closure) const {
-    return (velocities_.extrapolated() - closure.velocity_offset) / closure.velocity_slope;
+  // From the extrapolated change of velocity through the closure: exact to the order of the method and
+  // beyond.
+  Velocity<S> predicted_change(const AffineClosure<S>& closure) const {
+    if (velocity_changes_.size() == 0) return Velocity<S>::Constant(T(0.0));
+    return (velocity_changes_.extrapolated() - closure.velocity_change) / closure.velocity_slope;
   }
 
   // Eq. (56): v_j += Dv, [M B^T; B 0] [Dv; .] = [0; B l / h] at q_{k-1}, with the local error of the step
-  // that ends at t_k from the solution itself, l / h = sum_{i=1}^k gamma_i Dq(t_{k-i}) - v(t_k) - h^2 L_k.
-  StepResult modify_starting_velocities(std::span<const SolutionPoint<S>> points) requires
-      ConstrainedSystem<S> {
-    Velocity<S> local_error = coefficients_.gamma[0] * increment(points, k - 1) - points[std::size_t(k)].v;
-    local_error += closure().velocity_offset;
+  // that ends at t_k from the solution itself, l / h = sum_{i=1}^k gamma_i Dq(t_{k-i}) - v(t_k) - h^2 L_k;
+  // `known` is its part without Dq(t_{k-1}) and v(t_k).
+  StepResult modify_starting_velocities(std::span<const SolutionPoint<S>> points,
+                                        const Velocity<S>& known) requires ConstrainedSystem<S> {
+    const Velocity<S> local_error =
+        coefficients_.gamma[0] * increment_between(points, k - 1) + known - points[std::size_t(k)].v;
     const auto& q = points[std::size_t(k - 1)].q;
     const Multipliers<S> b = newton_.system().constraint_gradient(q) * local_error;
     const auto solution = solve_saddle_point(newton_.system(), q, Velocity<S>::Constant(T(0.0)).eval(), b);
-    if (!solution) return {Outcome::singular_matrix, 0.0};
-    for (int j = 0; j < k; ++j) velocities_[j] += solution->x;
+    if (!solution) return {Outcome::singular_matrix};
+    // All v_j move by the same vector: their differences stay.
+    velocity_ += solution->x;
     return {};
   }
 
   Options options_;
   BdfCoefficients<k, T> coefficients_;
   NewtonKernel<S, Audit> newton_;
-  T h_;
-  T t_;
-  Configuration<S> q_;
-  Multipliers<S> lambda_;
-  History<Velocity<S>, k + extra> velocities_;            // v_n, v_{n-1}, ...
-  History<Velocity<S>, (k > 1 ? k - 1 : 1)> increments_;  // Dq_{n-1}, Dq_{n-2}, ...
-  History<Multipliers<S>, k + extra> scaled_lambdas_;     // h lambda_n, ...
+  T h_ = T(0.0);
+  T t_ = T(0.0);
+  Configuration<S> q_ = Group::identity();
+  Velocity<S> velocity_;      // v_n
+  Multipliers<S> lambda_;     // lambda_n
+  Velocity<S> increment_;     // Dq_{n-1}
+  Velocity<S> correction_;    // h^2 L_k of the step before
+  Velocity<S> first_change_;  // v_k - v_{k-1} at d = 0
+  bool first_ = true;
+  History<Velocity<S>, k + 1> velocity_changes_;   // v_n - v_{n-1}, ...; more than k - 1 for the prediction
+  History<Velocity<S>, k> increment_changes_;      // Dq_{n-1} - Dq_{n-2}, ...
+  History<Multipliers<S>, k + 2> scaled_lambdas_;  // h lambda_n, ...
 };
 
 }  // namespace liebench

@@ -58,7 +58,8 @@ class DenseLu {
     inverse_pivots_[std::size_t(j)] = inverse;
     constexpr int rest = n - 1 - j;
     if constexpr (rest > 0) {
-      lu_.col(j).template tail<rest>() *= inverse;
+      // Divided, not multiplied by the inverse: only so do two equal rows leave an exact zero.
+      lu_.col(j).template tail<rest>() /= lu_(j, j);
       for (int c = j + 1; c < n; ++c)
         lu_.col(c).template tail<rest>() -= lu_(j, c) * lu_.col(j).template tail<rest>();
     }

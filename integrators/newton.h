@@ -16,17 +16,17 @@
 // The residual is evaluated in the scalar T of the run, matrix and correction in double (iterative
 // refinement: in extended precision each correction still gains the digits that double has).
 //
-// Stopping rule. Let d_i be the weighted norm of the i-th increment relative to the unknowns, theta = d_i /
-// d_{i-1} the observed contraction. The iteration ends
-//   - converged, when d_i or the predicted next increment theta d_i is below the round-off unit of the
-//   unknowns;
-//   - converged at the round-off floor, when the increments no longer shrink by a factor of 2 and are within
-//   a few units
-//     of round-off, or, with a matrix formed in this step, below the floor that the condition of the matrix
-//     allows;
-//   - newton_diverged, when they no longer shrink and are above that floor.
-// The round-off unit of Dq is eps |Dq| + eps |q| / h where a constraint is present: Phi is known to eps |q|
-// only, and its row is Phi / h. That of h lambda is the same through the mass matrix.
+// Stopping rule. Let s_i be the size of the i-th correction in units of round-off of the unknowns, and
+// theta = s_i / s_{i-1} the observed contraction. The iteration ends
+//   - converged, when s_i or the predicted next one, theta s_i, is below 1/20;
+//   - converged at the round-off floor, when corrections no longer shrink by a factor of 2 and s_i is below 32, or,
+//     with a matrix formed in this step, below 1e5, the floor that the condition of the matrix allows;
+//   - newton_diverged, when above that floor two corrections in a row grow with a matrix formed in this step, or
+//     after 60 iterations.
+// The round-off unit of d is eps times |d| + |Dq| / 100, and eps |q| / h in addition where a constraint is present:
+// Phi is known to eps |q| only, and its row is Phi / h. That of h lambda is eps |h lambda| and the unit of d through
+// the mass matrix. (A tolerance of eps |Dq| would do for the increment, but what it leaves of the residual acts like
+// a force eps |v| / h in every step.)
 
 namespace liebench {
 
@@ -53,7 +53,7 @@ class NewtonKernel {
     bool fresh = false;    // the matrix was formed in this step
     bool stalled = false;  // the last increment did not shrink, with a fresh matrix
     double previous = 0.0;
-    const double scale = increment_scale(z, q_n, to_double(h));
+    const double scale = fixed_scale(closure, q_n, to_double(h));
     Unknowns r = Unknowns::Constant(T(0.0));
     if (!factorized_ || marginal_cost_exceeds_average()) {
       point = Equation::point(q_n, h, closure, z);
@@ -70,8 +70,12 @@ class NewtonKernel {
       z -= d.template cast<T>();
       const double size = weighted_norm(d, z, scale);
       if (!std::isfinite(size)) return failure(Outcome::non_finite, r);
+      if constexpr (!S::Group::commutative)
+        if (to_linear(z).template head<m>().template lpNorm<Eigen::Infinity>() * to_double(h) > farthest)
+          return failure(Outcome::newton_diverged, r);
 
-      const double rate = iteration > 1 ? size / previous : rate_;
+      // Below one unit a size is noise: it bounds the rate, it does not measure it.
+      const double rate = iteration > 1 ? std::max(size, 1.0) / previous : rate_;
       if (size <= unit || rate * size <= unit) {
         rate_ = std::min(1.0, rate * safety);
         return finish(q_n, h, closure, z, point, iteration);
@@ -100,6 +104,8 @@ class NewtonKernel {
 
  private:
   static constexpr int max_iterations = 60;
+  // rad: no sine is worth taking beyond.
+  static constexpr double farthest = 1e8;
   static constexpr double slowest_rate = 0.5;
   // The rate of a factorization grows as it ages: a rate seen before counts for twice as much, so that it is
   // seen anew before it can mislead.
@@ -119,20 +125,23 @@ class NewtonKernel {
 
   static Correction to_linear(const Unknowns& r) { return r.template cast<double>(); }
 
-  // What round-off of Dq is relative to: |Dq|, and |q| / h where a constraint is present.
-  static double increment_scale(const Unknowns& z, const Configuration<S>& q_n, double h) {
-    double scale = to_linear(z).template head<m>().template lpNorm<Eigen::Infinity>();
+  // What round-off of d is relative to, apart from d itself.
+  template <class Closure>
+  static double fixed_scale(const Closure& closure, const Configuration<S>& q_n, double h) {
+    double scale = 0.01 * closure.base.template cast<double>().template lpNorm<Eigen::Infinity>();
     if constexpr (l > 0)
       scale += S::Group::stacked(q_n).template cast<double>().template lpNorm<Eigen::Infinity>() / h;
     return scale;
   }
 
-  // Increments in units of round-off of the unknowns.
+  // Corrections in units of round-off of the unknowns.
   double weighted_norm(const Correction& d, const Unknowns& z, double scale) const {
+    const Correction z_linear = to_linear(z);
+    scale += z_linear.template head<m>().template lpNorm<Eigen::Infinity>();
     double size = relative(d.template head<m>().template lpNorm<Eigen::Infinity>(), scale);
     if constexpr (l > 0) {
       const double multiplier_scale =
-          to_linear(z).template tail<l>().template lpNorm<Eigen::Infinity>() + mass_scale_ * scale;
+          z_linear.template tail<l>().template lpNorm<Eigen::Infinity>() + mass_scale_ * scale;
       size =
           std::max(size, relative(d.template tail<l>().template lpNorm<Eigen::Infinity>(), multiplier_scale));
     }
@@ -154,9 +163,9 @@ class NewtonKernel {
                          closure.scaled_acceleration_derivative(), J);
     } else {
       using LinearEquation = StepEquation<LinearSystem>;
-      const typename LinearEquation::Point linear_point{S::Group::template cast<double>(point.q),
-                                                        point.v.template cast<double>(),
-                                                        point.scaled_acceleration.template cast<double>()};
+      const typename LinearEquation::Point linear_point{
+          point.step.template cast<double>(), S::Group::template cast<double>(point.q),
+          point.v.template cast<double>(), point.scaled_acceleration.template cast<double>()};
       LinearEquation::jacobian(linear_system_, to_double(t), to_double(h), linear_point, to_linear(z),
                                to_double(closure.velocity_derivative()),
                                to_double(closure.scaled_acceleration_derivative()), J);

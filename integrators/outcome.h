@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string_view>
 
 namespace liebench {
@@ -33,10 +34,10 @@ constexpr std::string_view name(Outcome outcome) {
 }
 
 // How one step ended. `residual`: where it failed, the maximum norm of the scaled residual (h r, Phi / h) of
-// the last Newton iteration.
+// the last Newton iteration; NaN where there is none.
 struct StepResult {
   Outcome outcome = Outcome::ok;
-  double residual = 0.0;
+  double residual = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace liebench

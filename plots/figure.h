@@ -31,6 +31,8 @@ struct Series {
   /// The second variant of a style (double beside extended precision): a thin dashed line and open marks,
   /// drawn beneath and larger, so that where both agree a ring around the filled mark says so.
   bool secondary = false;
+  /// A broad line and large marks, drawn beneath: for a curve that others may cover for part of its length.
+  bool broad = false;
   /// Joined in this order. A y that is not finite counts as a failure at its x; a y that a logarithmic axis
   /// cannot show (an error of exactly 0), or beyond an explicit range, is drawn as an open triangle at that
   /// edge.

@@ -79,7 +79,7 @@ std::vector<Curve> write_panel_data(std::string& script, const Panel& panel, con
       write_data(script, name, lines);
       (low ? beneath : above).push_back({name, plot_style(look, lines.size())});
     };
-    add("curve", curve_lines(series, axes), look_of(series), series.secondary);
+    add("curve", curve_lines(series, axes), look_of(series), series.secondary || series.broad);
 
     for (const bool low : {true, false}) {
       std::vector<std::string> lines;

@@ -36,7 +36,7 @@ struct HeavyTopData {
     for (std::size_t i = 0; i < 3; ++i) inertia.row(Eigen::Index(i)) = vector(p.inertia[i]).transpose();
     Eigen::Matrix<T, 4, 1> orientation;
     for (std::size_t i = 0; i < 4; ++i) orientation(Eigen::Index(i)) = decimal<T>(p.orientation[i]);
-    R0 = SO3<T>::from_quaternion(orientation / orientation.norm());
+    R0 = rotation_matrix<T>(orientation / orientation.norm());
   }
 
   // J about the tip (Steiner), kg m^2.

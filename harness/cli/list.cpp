@@ -75,6 +75,7 @@ void add_list(CLI::App& app, int&) {
   command->add_option("what", *what, "problems or integrators")
       ->required()
       ->check(CLI::IsMember({"problems", "integrators"}));
+  command->footer("Example:\n  liebench list integrators");
   command->callback([what] { list(*what); });
 }
 

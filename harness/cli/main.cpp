@@ -1,15 +1,35 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <new>
 
 #include "harness/cli/commands.h"
 #include "harness/errors.h"
 #include "harness/provenance.h"
+#include "harness/strict_json.h"
 #include "plots/gnuplot.h"
 
 // Exit status: 0 done, 1 a check found a difference, 2 bad input, 3 the machine failed.
+
+namespace {
+
+// CLI11 would only say that a command is missing.
+void require_known_command(const CLI::App& app, int argc, char** argv) {
+  using namespace liebench;
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+  const std::string word = argv[1];
+  if (std::find(commands.begin(), commands.end(), word) == commands.end())
+    throw InputError("liebench", fmt::format("unknown command \"{}\"; allowed: {}{}", word,
+                                             quoted_list(commands), suggestion(word, commands)));
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace liebench;
@@ -41,7 +61,9 @@ int main(int argc, char** argv) {
   add_list(app, status);
   add_describe(app, status);
   try {
+    require_known_command(app, argc, argv);
     app.parse(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw MachineError("standard output: cannot write");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   } catch (const InputError& error) {

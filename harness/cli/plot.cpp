@@ -24,6 +24,7 @@ void plot(const PlotOptions& options) {
   std::vector<Json> records;
   for (const std::string& file : options.files)
     for (Json& record : read_records(file)) records.push_back(std::move(record));
+  if (records.empty()) throw InputError(options.files.front(), "holds no records");
   const Quantity quantity{options.y, options.norm};
   Panel panel{.title = "", .x_label = "step size h in s", .y_label = plain_text(describe(quantity))};
   int style = 0;

@@ -30,8 +30,9 @@ struct Shard {
 Shard parse_shard(const std::string& text) {
   Shard shard;
   int read = 0;
-  if (std::sscanf(text.c_str(), "%zu/%zu%n", &shard.index, &shard.count, &read) != 2 ||
-      std::size_t(read) != text.size() || shard.index < 1 || shard.index > shard.count || text[0] == '-')
+  if (text.find_first_not_of("0123456789/") != std::string::npos ||
+      std::sscanf(text.c_str(), "%zu/%zu%n", &shard.index, &shard.count, &read) != 2 ||
+      std::size_t(read) != text.size() || shard.index < 1 || shard.index > shard.count)
     throw InputError("--shard",
                      fmt::format("\"{}\" is not allowed; allowed: I/N with 1 <= I <= N, e.g. 2/8", text));
   return shard;

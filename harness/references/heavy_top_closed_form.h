@@ -27,7 +27,7 @@ namespace liebench {
 //   beta(t)  = beta_0  Q_c(t) / Q_c(0) exp(i r_c t),   r_c = (b - w) / 2 + i pi L(v_c) / (2 w1),
 //   Q_a = theta_1(v + v_a) / theta_1(v),
 //
-// where u(a) = -1, u'(a) = -i (p + b); u(c) = 1, u'(c) = i (p - b). This is METHODS.md section 8 with sigma
+// where u(a) = -1, u'(a) = -i (p + b); u(c) = 1, u'(c) = i (p - b). This is the design notes, section 8 with sigma
 // and zeta written in theta functions, whereby the factors of eta_1 cancel, and with an initial state that
 // need not be a turning point of u. Nothing is singular at u = +-1 (Klein & Sommerfeld, Theorie des
 // Kreisels, ch. VI).

@@ -95,9 +95,11 @@ TEST(RotationCoefficients, InDoubleAreThoseOfExtendedToFourEps) {
     for (const double x : sweep()) {
       const double s = x * x;
       const Extended exact = extended[i].value(Extended(s));
-      const double slope = to_double(Extended(extended[i].value(Extended(s) * (1.0 + 0x1p-40)) - exact)) * 0x1p40;
+      const double slope =
+          to_double(Extended(extended[i].value(Extended(s) * (1.0 + 0x1p-40)) - exact)) * 0x1p40;
       const double unit = eps * (std::abs(to_double(exact)) + std::abs(slope));
-      EXPECT_LE(std::abs(to_double(Extended(doubles[i].value(s) - exact))), 4 * unit) << doubles[i].name << ' ' << x;
+      EXPECT_LE(std::abs(to_double(Extended(doubles[i].value(s) - exact))), 4 * unit)
+          << doubles[i].name << ' ' << x;
     }
   }
 }
@@ -128,7 +130,7 @@ TEST(RotationCoefficients, AtZeroAreTheLeadingTerms) {
 }
 
 TEST(RotationCoefficients, SeriesHaveTheCoefficientsOfTheDesign) {
-  // METHODS.md section 6, and the Bernoulli numbers: |B_2n| / (2n)!.
+  // the design notes, section 6, and the Bernoulli numbers: |B_2n| / (2n)!.
   const auto& c = detail::RotationSeries<double>::sine_defect;
   EXPECT_DOUBLE_EQ(c[1], -1.0 / 120);
   EXPECT_DOUBLE_EQ(c[4], 1.0 / 39916800);

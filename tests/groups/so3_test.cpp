@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -13,7 +14,7 @@ namespace liebench {
 
 // The suite's own directions, and those where Shepperd's rule changes its pivot: equal diagonal entries.
 template <Scalar T>
-struct LieGroupExamples<SO3<T>> {
+struct LieGroupExamples<SO3<T>> : DefaultLieGroupExamples<SO3<T>> {
   static std::vector<Eigen::Matrix<T, 3, 1>> directions() {
     std::vector<Eigen::Matrix<T, 3, 1>> all;
     for (const double x : {-1.0, 0.0, 1.0})
@@ -65,11 +66,26 @@ TEST(SO3, QuaternionAndMatrixAreInverseToEachOther) {
   for (const double angle : {0.0, 1e-8, 1.0, 2.0, 2.5, 3.0, 3.14159}) {
     for (const auto& v : LieGroupSamples<SO3<double>>::tangents(angle)) {
       const Matrix R = SO3<double>::exp(v);
-      const Eigen::Vector4d p = SO3<double>::quaternion(R);
+      const Quaternion<double> p = SO3<double>::quaternion(R);
       EXPECT_LE(std::abs(p.norm() - 1), 8 * eps);
-      EXPECT_LE((SO3<double>::from_quaternion(p) - R).norm(), 16 * eps);
+      EXPECT_LE((rotation_matrix<double>(p) - R).norm(), 16 * eps);
     }
   }
+}
+
+template <class T>
+void expect_axis_up_to_sign_at_pi() {
+  using S = LieGroupSamples<SO3<T>>;
+  for (const auto& v : S::tangents(S::pi())) {
+    const auto w = SO3<T>::log(SO3<T>::exp(v));
+    const double tolerance = S::few * S::eps() * S::length(v);
+    EXPECT_LE(std::min(S::length((w - v).eval()), S::length((w + v).eval())), tolerance);
+  }
+}
+
+TEST(SO3, LogAtPiHasTheAngleAndTheAxisUpToSign) {
+  expect_axis_up_to_sign_at_pi<double>();
+  expect_axis_up_to_sign_at_pi<Extended>();
 }
 
 TEST(SO3, DefectIsTheFrobeniusNormOfTheGramMatrixMinusIdentity) {

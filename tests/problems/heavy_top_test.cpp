@@ -59,7 +59,8 @@ std::vector<BodyState> body_states() {
 TEST(HeavyTop, InertiaAboutTheTipIsThatOfThePaper) {
   // Eq. (57) from the data of eq. (58): J + m (|X|^2 I - X X^T), exact in binary.
   const Rotation system{HeavyTopParameters{}};
-  EXPECT_EQ(system.mass_matrix(Matrix::Identity()), Matrix(Vector(15.234375, 0.46875, 15.234375).asDiagonal()));
+  EXPECT_EQ(system.mass_matrix(Matrix::Identity()),
+            Matrix(Vector(15.234375, 0.46875, 15.234375).asDiagonal()));
 }
 
 TEST(HeavyTop, MassMatricesAreSymmetricPositiveDefinite) {
@@ -83,7 +84,8 @@ TEST(HeavyTop, MomentumIsTheMassMatrixTimesTheVelocity) {
     const auto q = body.initial_configuration();
     EXPECT_LE((rotation.momentum(q.second, w3) - rotation.mass_matrix(q.second) * w3).norm(),
               roundings * rotation.mass_matrix(q.second).norm());
-    EXPECT_LE((body.momentum(q, w6) - body.mass_matrix(q) * w6).norm(), roundings * body.mass_matrix(q).norm());
+    EXPECT_LE((body.momentum(q, w6) - body.mass_matrix(q) * w6).norm(),
+              roundings * body.mass_matrix(q).norm());
   }
 }
 
@@ -93,15 +95,15 @@ TEST(HeavyTop, EquationsOfMotionAreThoseOfThePaper) {
   const Vector omega(0, 150, -4.61538), X(0, 1, 0), weight(0, 0, -15 * 9.81);
   const Matrix J = Vector(15.234375, 0.46875, 15.234375).asDiagonal();
   const Vector expected = omega.cross(J * omega) - X.cross(weight);
-  EXPECT_LE((Rotation(p).force(0.0, Matrix::Identity(), omega) - expected).norm(), roundings * expected.norm());
-  // METHODS.md 7.1: Omega'(0) and lambda(0).
+  EXPECT_LE((Rotation(p).force(0.0, Matrix::Identity(), omega) - expected).norm(),
+            roundings * expected.norm());
+  // the design notes, section 7.1: Omega'(0) and lambda(0).
   const Vector omega_dot = -J.inverse() * expected;
   EXPECT_NEAR(omega_dot(0), 661.34616923, 1e-8);
   const Vector lambda = Body(p).multipliers(Matrix::Identity(), omega, omega_dot);
   EXPECT_NEAR(lambda(0), 0.0, 1e-12);
   EXPECT_NEAR(lambda(1), -319.525988166, 1e-9);
-  // METHODS.md rounds Omega_3(0) to -60/13 for this one, -4.61538 of the paper is 4.6e-7 away.
-  EXPECT_NEAR(lambda(2), -317.26246153846153846, 1e-3);
+  EXPECT_NEAR(lambda(2), -317.26246153846153846, 1e-9);
 }
 
 TEST(HeavyTop, InitialValuesAreTheDataAndConsistent) {
@@ -166,7 +168,8 @@ TEST(HeavyTop, StiffnessIsTheDerivativeOfTheResidualByTheConfiguration) {
       EXPECT_LE((K - derivative_by_jets(rotation, s.R, residual)).norm(), roundings * scale);
       // The noise is that of the whole residual, gyroscopic terms included.
       const double noise = rotation.mass_matrix(s.R).norm() * (s.omega_dot.norm() + s.omega.squaredNorm());
-      EXPECT_LE((K - derivative_by_differences(rotation, s.R, residual)).norm(), difference_error * (scale + noise));
+      EXPECT_LE((K - derivative_by_differences(rotation, s.R, residual)).norm(),
+                difference_error * (scale + noise));
     }
     const Body body(p);
     for (const BodyState& s : body_states()) {
@@ -181,7 +184,8 @@ TEST(HeavyTop, StiffnessIsTheDerivativeOfTheResidualByTheConfiguration) {
       const double scale = s.lambda.norm() * (1 + s.q.first.norm());
       EXPECT_LE((K - derivative_by_jets(body, s.q, residual)).norm(), roundings * scale);
       const double noise = body.mass_matrix(s.q).norm() * (s.a.norm() + s.v.squaredNorm());
-      EXPECT_LE((K - derivative_by_differences(body, s.q, residual)).norm(), difference_error * (scale + noise));
+      EXPECT_LE((K - derivative_by_differences(body, s.q, residual)).norm(),
+                difference_error * (scale + noise));
     }
   }
 }
@@ -200,7 +204,8 @@ TEST(HeavyTop, ForceAtRestIsTheGradientOfTheEnergy) {
       };
       const double scale = p.mass * 10 * (1 + s.q.first.norm());
       const Vector at_rest = rotation.force(0.0, s.q.second, Vector::Zero());
-      EXPECT_LE((derivative_by_jets(rotation, s.q.second, energy).transpose() - at_rest).norm(), roundings * scale);
+      EXPECT_LE((derivative_by_jets(rotation, s.q.second, energy).transpose() - at_rest).norm(),
+                roundings * scale);
       const Vector6 body_at_rest = body.force(0.0, s.q, Vector6::Zero());
       EXPECT_LE((derivative_by_jets(body, s.q, energy).transpose() - body_at_rest).norm(), roundings * scale);
     }
@@ -275,8 +280,8 @@ TEST(HeavyTop, ConstraintCurvatureIsTheRateOfTheGradientAlongTheVelocity) {
   for (const HeavyTopParameters& p : sample_tops()) {
     const Body body(p);
     for (const BodyState& s : body_states()) {
-      const auto rate = directional_derivative_by_jets(
-          body, s.q, s.v, [&](const auto& system, const auto& q, const auto&) {
+      const auto rate =
+          directional_derivative_by_jets(body, s.q, s.v, [&](const auto& system, const auto& q, const auto&) {
             return (system.constraint_gradient(q) * in_scalar_of(system, s.v)).eval();
           });
       const Vector Z = body.constraint_curvature(s.q, s.v);
@@ -288,8 +293,11 @@ TEST(HeavyTop, ConstraintCurvatureIsTheRateOfTheGradientAlongTheVelocity) {
       const auto q = Body::Group::cast<Extended>(s.q);
       const Group::Tangent v = s.v.cast<Extended>();
       const double d = 1e-8 / (1 + s.v.norm());
-      const auto phi = [&](double t) { return extended.constraint(Group::compose(q, Group::exp(v * Extended(t)))); };
-      const Vector difference = ((phi(d) - phi(0) * Extended(2.0) + phi(-d)) / (Extended(d) * d)).cast<double>();
+      const auto phi = [&](double t) {
+        return extended.constraint(Group::compose(q, Group::exp(v * Extended(t))));
+      };
+      const Vector difference =
+          ((phi(d) - phi(0) * Extended(2.0) + phi(-d)) / (Extended(d) * d)).cast<double>();
       // Truncation d^2 |v|^4 / 12, noise 4 eps / d^2: both 1e-15 of the scale.
       EXPECT_LE((Z - difference).norm(), 1e-13 * scale);
     }
@@ -318,7 +326,7 @@ void expect_same_motion(double unit) {
       const auto q = body.configuration(R);
       const auto v = body.velocity(R, omega);
       const auto solution = solve_saddle_point<HeavyTopR3xSO3<T>>(body, q, -body.force(T(0.0), q, v),
-                                                                 -body.constraint_curvature(q, v));
+                                                                  -body.constraint_curvature(q, v));
       ASSERT_TRUE(solution.has_value());
       const double loads = to_double(T(body.force(T(0.0), q, v).norm() + v.squaredNorm())) + 10 * p.mass;
       const auto acceleration = body.acceleration(R, omega, omega_dot);
@@ -328,11 +336,14 @@ void expect_same_motion(double unit) {
       // Position, velocity and acceleration satisfy the constraint and its two derivatives.
       EXPECT_LE(to_double(T(body.constraint(q).norm())), 16 * unit);
       EXPECT_LE(to_double(T((body.constraint_gradient(q) * v).norm())), 64 * unit * (1 + s.omega.norm()));
-      EXPECT_LE(to_double(T((body.constraint_gradient(q) * acceleration + body.constraint_curvature(q, v)).norm())),
-                64 * unit * loads);
+      EXPECT_LE(
+          to_double(T((body.constraint_gradient(q) * acceleration + body.constraint_curvature(q, v)).norm())),
+          64 * unit * loads);
       // The energies agree: Steiner.
-      const double energy_scale = to_double(rotation.mass_matrix(R).norm()) * (1 + s.omega.squaredNorm()) + 10 * p.mass;
-      EXPECT_LE(std::abs(to_double(T(rotation.energy(R, omega) - body.energy(q, v)))), 64 * unit * energy_scale);
+      const double energy_scale =
+          to_double(rotation.mass_matrix(R).norm()) * (1 + s.omega.squaredNorm()) + 10 * p.mass;
+      EXPECT_LE(std::abs(to_double(T(rotation.energy(R, omega) - body.energy(q, v)))),
+                64 * unit * energy_scale);
     }
   }
 }

@@ -42,7 +42,7 @@ bool identical(const HeavyTopState& a, const HeavyTopState& b) {
          a.t == b.t;
 }
 
-// The digits of these three tests are those of METHODS.md section 8.
+// The digits of these three tests are those of the design notes, section 8.
 TEST(HeavyTopReference, GivesThePublishedStateAtTwoSeconds) {
   const HeavyTopState s = fast_top().at(2.0);
   const std::array<const char*, 4> q{"0.1229471350415334671042516", "-0.4910798925500270146990447",
@@ -98,14 +98,14 @@ TEST(HeavyTopReference, AcceleratesAtTheStartAsTheEquationsSay) {
   // Rounding of some ten double-double operations, 2^-104 each at worst.
   EXPECT_LT(abs(to_wide(s.omega_dot[0]) / expected - 1), Wide("1e-30"));
   EXPECT_TRUE(s.omega_dot[1] == 0.0 && s.omega_dot[2] == 0.0);
-  // METHODS.md section 7.1.
+  // the design notes, section 7.1.
   expect_printed_vector(multiplier(s),
                         {"0.000000000000000000000000", "-319.525988166000000000", "-317.26246153846153846"});
 }
 
 TEST(HeavyTopReference, AgreesWithTheSpatialVelocityThatExudynQuotes) {
   const HeavyTopState s = fast_top().at(2.0);
-  // METHODS.md section 7.1: the closed form, and Exudyn's Runge-Kutta runs with 1e-14 and h = 2e-5.
+  // the design notes, section 7.1: the closed form, and Exudyn's Runge-Kutta runs with 1e-14 and h = 2e-5.
   const double omega_y = to_double((s.R * s.omega)[1]);
   EXPECT_NEAR(omega_y, -106.16380414312445, 2e-14);
   EXPECT_NEAR(omega_y, -106.16380414311477, 2e-11);

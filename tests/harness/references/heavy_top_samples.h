@@ -56,7 +56,7 @@ inline HeavyTopParameters oblique_top() {
   return p;
 }
 
-// METHODS.md 7.3; J_fix = diag(2, 2, 1).
+// the design notes, section 7.3; J_fix = diag(2, 2, 1).
 inline HeavyTopParameters kovalevskaya_top() {
   HeavyTopParameters p;
   p.mass = 1;
@@ -67,7 +67,7 @@ inline HeavyTopParameters kovalevskaya_top() {
   return p;
 }
 
-// METHODS.md 7.2: Euler's top started beside its unstable middle axis.
+// the design notes, section 7.2: Euler's top started beside its unstable middle axis.
 inline HeavyTopParameters free_body() {
   HeavyTopParameters p;
   p.inertia = {{{1, 0, 0}, {0, 2, 0}, {0, 0, 3}}};

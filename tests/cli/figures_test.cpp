@@ -1,0 +1,53 @@
+#include <algorithm>
+
+#include "harness/record.h"
+#include "tests/cli/program_test.h"
+#include "tests/harness/json_schema.h"
+
+// liebench figures, in the form that takes a second. CI runs all of it.
+
+namespace liebench {
+namespace {
+
+using FiguresTest = ProgramTest;
+
+TEST_F(FiguresTest, OneFigureLeavesItsRecordsItsPicturesAndItsVerdictAndNothingElse) {
+  const ProgramResult result = run({"figures", "--short", "--only", "figure2", "--out", "out/deep"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(folder.entries(), (std::vector<std::string>{"out", "out/deep", "out/deep/figure2.jsonl",
+                                                        "out/deep/figure2.pdf", "out/deep/figure2.png",
+                                                        "out/deep/figure2.svg", "out/deep/verification.md"}));
+  EXPECT_TRUE(contains(result.out, "out/deep/figure2.svg")) << result.out;
+  EXPECT_TRUE(contains(result.out, "out/deep/verification.md")) << result.out;
+  EXPECT_EQ(result.err, "");
+
+  const std::filesystem::path out = folder / "out/deep";
+  EXPECT_TRUE(read_text(out / "figure2.pdf").starts_with("%PDF-"));
+  EXPECT_TRUE(contains(
+      read_text(out / "figure2.pdf").substr(std::filesystem::file_size(out / "figure2.pdf") - 16), "%%EOF"));
+  EXPECT_TRUE(read_text(out / "figure2.png").starts_with("\x89PNG\r\n\x1a\n"));
+  const std::string svg = read_text(out / "figure2.svg");
+  EXPECT_TRUE(contains(svg, "<svg")) << svg.substr(0, 100);
+  EXPECT_TRUE(contains(svg.substr(svg.size() - 16), "</svg>"));
+  const std::string verification = read_text(out / "verification.md");
+  EXPECT_TRUE(contains(verification, "short form"));
+  EXPECT_TRUE(contains(verification, "Theorem 1"));
+  EXPECT_FALSE(contains(verification, "Global errors")) << "figure 4 was not asked for";
+
+  const JsonSchema schema(record_schema_text());
+  const auto lines = lines_of(read_text(out / "figure2.jsonl"));
+  EXPECT_EQ(lines.size(), 2u * 6u * 2u * 13u);  // formulations, methods, precisions, step sizes
+  for (const std::string& line : lines) ASSERT_EQ(schema.violations(line), "") << line;
+}
+
+TEST_F(FiguresTest, TheRecordsOfAFigureAreTablesAndPlotsAsThoseOfAnyStudy) {
+  ASSERT_EQ(run({"figures", "--short", "--only", "figure2", "--out", "out"}).status, 0);
+  const ProgramResult table = run({"table", "out/figure2.jsonl", "--format", "csv"});
+  EXPECT_EQ(table.status, 0) << table.err;
+  EXPECT_GT(lines_of(table.out).size(), 24u);
+  EXPECT_EQ(run({"plot", "out/figure2.jsonl", "--norm", "end_absolute", "--out", "plot.svg"}).status, 0);
+  EXPECT_TRUE(contains(read_text(folder / "plot.svg"), "</svg>"));
+}
+
+}  // namespace
+}  // namespace liebench

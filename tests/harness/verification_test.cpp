@@ -1,0 +1,146 @@
+#include "harness/verification.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "harness/embedded.h"
+#include "harness/figures.h"
+#include "tests/harness/sample_records.h"
+
+namespace liebench {
+namespace {
+
+using Records = std::map<std::string, std::vector<Json>>;
+
+// The orders that the paper claims, of q, v and lambda.
+struct Orders {
+  double q, v, lambda;
+};
+
+Orders claimed(const Json& record) {
+  const int k = record["options"]["k"].get<int>();
+  const bool correction = record["options"]["correction"].get<bool>();
+  const double order = correction ? k : std::min(2, k);
+  return {order, order, order};
+}
+
+// Records of every run of the figures' studies, with errors that follow the claims exactly; `change` may bend
+// the orders of a record.
+template <class Change>
+Records records_by(const Change& change) {
+  Records all;
+  for (const PaperFigure& figure : paper_figures())
+    for (const std::string_view file : figure.studies)
+      for (const RunSpec& run : read_study(parse_json(embedded_file(file), std::string(file))).runs) {
+        const bool constrained = run.formulation->constraints > 0;
+        const Json plain =
+            make_record(run, sample_result(1, 1, 1, constrained), NoProblem(), sample_provenance());
+        Orders orders = claimed(plain);
+        if (run.local_steps > 0) orders = {orders.q + 1, orders.v + 1, orders.lambda + 1};
+        double lambda_max = orders.lambda;
+        if (figure.name == "figure1" && !run.request.options.boolean("modified_start")) lambda_max -= 1;
+        change(plain, orders, lambda_max);
+        const auto law = [&](double order) { return std::pow(run.step_size(), order); };
+        RunResult result = sample_result(law(orders.q), law(orders.v), law(orders.lambda), constrained);
+        if (result.lambda) result.lambda->max_absolute = law(lambda_max);
+        all[std::string(figure.name)].push_back(make_record(run, result, NoProblem(), sample_provenance()));
+      }
+  return all;
+}
+
+Records perfect() {
+  return records_by([](const Json&, Orders&, double&) {});
+}
+
+TEST(Verification, ConfirmsEveryClaimWhereTheErrorsFollowThePaper) {
+  const Verification result = verify(perfect(), "");
+  EXPECT_GT(result.claims, 40);
+  EXPECT_EQ(result.confirmed, result.claims) << result.markdown;
+  EXPECT_NE(result.markdown.find(fmt::format("**{} of {} claims confirmed.**", result.claims, result.claims)),
+            std::string::npos);
+}
+
+TEST(Verification, CoversEveryOrderOfThePaperInEveryComponent) {
+  const std::string text = verify(perfect(), "").markdown;
+  for (const char* part : {"Theorem 1", "Theorems 2 and 3", "(56)", "L_k", "relative error of q",
+                           "relative error of v", "relative error of lambda", "maximum error of lambda"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+TEST(Verification, DeniesAClaimWhoseErrorsFallMoreSlowly) {
+  // lambda of Figure 4, k = 3 with L_k: order 2.5 instead of 3.
+  const Verification result = verify(records_by([](const Json& record, Orders& orders, double&) {
+                                       if (record["study"] == "figure4" && record["options"]["k"] == 3 &&
+                                           record["options"]["correction"] == true)
+                                         orders.lambda = 2.5;
+                                     }),
+                                     "");
+  EXPECT_EQ(result.confirmed, result.claims - 1) << result.markdown;
+  EXPECT_NE(result.markdown.find("differs"), std::string::npos);
+}
+
+TEST(Verification, DeniesAClaimWhoseErrorsFallFaster) {
+  // Without L_k the paper claims order 2, not "at least 2".
+  const Verification result = verify(records_by([](const Json& record, Orders& orders, double&) {
+                                       if (record["study"] == "figure3" && record["options"]["k"] == 4 &&
+                                           record["options"]["correction"] == false)
+                                         orders.q = 4;
+                                     }),
+                                     "");
+  EXPECT_EQ(result.confirmed, result.claims - 1) << result.markdown;
+}
+
+TEST(Verification, JudgesTheOrderReductionAsAClaimOfItsOwn) {
+  // Without (56) the maximum of lambda has order k - 1: order k there is a difference, not a bonus.
+  const Verification result = verify(records_by([](const Json& record, Orders&, double& lambda_max) {
+                                       if (record["study"] == "figure1" && record["options"]["k"] == 2)
+                                         lambda_max = 2;
+                                     }),
+                                     "");
+  EXPECT_EQ(result.confirmed, result.claims - 1) << result.markdown;
+}
+
+TEST(Verification, LooksAtExtendedPrecisionOnly) {
+  Records records = perfect();
+  const Verification before = verify(records, "");
+  for (auto& [study, rows] : records)
+    for (Json& record : rows)
+      if (record["precision"] == "double") record["errors"]["q"]["end_relative"] = 1.0;
+  EXPECT_EQ(verify(records, "").markdown, before.markdown);
+}
+
+TEST(Verification, WithoutPointsConfirmsNothing) {
+  Records records = perfect();
+  for (auto& [study, rows] : records)
+    for (Json& record : rows) {
+      record["outcome"] = "newton_diverged";
+      record.erase("errors");
+    }
+  const Verification result = verify(records, "");
+  EXPECT_GT(result.claims, 40);
+  EXPECT_EQ(result.confirmed, 0);
+  EXPECT_NE(result.markdown.find("no order: "), std::string::npos);
+}
+
+TEST(Verification, LeavesOutClaimsOfFiguresThatWereNotMade) {
+  const Records all = perfect();
+  int sum = 0;
+  for (const auto& [study, rows] : all) {
+    const Verification one = verify({{study, rows}}, "");
+    EXPECT_GT(one.claims, 0) << study;
+    sum += one.claims;
+  }
+  EXPECT_EQ(sum, verify(all, "").claims);
+  EXPECT_EQ(verify({}, "").claims, 0);
+}
+
+TEST(Verification, CarriesTheNote) {
+  EXPECT_NE(verify(perfect(), "This is the short form.").markdown.find("This is the short form."),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace liebench
