@@ -13,29 +13,6 @@ namespace liebench {
 template <class T>
 using Quaternion = Eigen::Matrix<T, 4, 1>;
 
-template <class T>
-Quaternion<T> quaternion_product(const Quaternion<T>& a, const Quaternion<T>& b) {
-  return Quaternion<T>(a(0) * b(0) - a(1) * b(1) - a(2) * b(2) - a(3) * b(3),
-                       a(0) * b(1) + a(1) * b(0) + a(2) * b(3) - a(3) * b(2),
-                       a(0) * b(2) - a(1) * b(3) + a(2) * b(0) + a(3) * b(1),
-                       a(0) * b(3) + a(1) * b(2) - a(2) * b(1) + a(3) * b(0));
-}
-
-template <class T>
-Quaternion<T> conjugate(const Quaternion<T>& p) {
-  return Quaternion<T>(p(0), -p(1), -p(2), -p(3));
-}
-
-// (cos(|v|/2), sin(|v|/2) v / |v|): the rotation by the vector v.
-template <class T>
-Quaternion<T> quaternion_exp(const Eigen::Matrix<T, 3, 1>& v) {
-  const T quarter = v.squaredNorm() * 0.25;
-  const auto [s, b] = sinc_versine<T>(quarter);
-  const T half_sinc = s * 0.5;
-  // cos(x/2) = 1 - (x/2)^2 b((x/2)^2)
-  return Quaternion<T>(T(1.0) - quarter * b, half_sinc * v(0), half_sinc * v(1), half_sinc * v(2));
-}
-
 // The rotation vector of the unit quaternion p, of length at most pi: that of -p where p0 < 0, the same
 // rotation. By atan2, accurate to a few eps for every angle.
 template <class T>

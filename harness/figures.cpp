@@ -36,7 +36,7 @@ void add_curves(Panel& panel, const std::vector<Json>& records, const Filter& fi
     }
     std::sort(series.points.begin(), series.points.end(),
               [](const Point& a, const Point& b) { return a.x > b.x; });
-    panel.series.push_back(std::move(series));
+    if (!series.points.empty() || !series.failures.empty()) panel.series.push_back(std::move(series));
   }
 }
 
@@ -58,7 +58,17 @@ Panel orders_panel(const std::vector<Json>& records, std::string title, std::str
   return panel;
 }
 
-Figure transient_figure(const std::vector<Json>& records, int k) {
+// A curve of a transient figure: which records, and how it looks.
+struct TransientCurve {
+  std::string label;
+  Filter filter;
+  int style;
+  bool broad;
+};
+
+// Maximum and end error of lambda, maximum errors of q and v; `order` is that of the method.
+Figure transient_figure(const std::vector<Json>& records, std::string title, int order,
+                        const std::vector<TransientCurve>& curves) {
   struct Content {
     const char* title;
     const char* label;
@@ -66,23 +76,85 @@ Figure transient_figure(const std::vector<Json>& records, int k) {
     std::vector<int> orders;
   };
   const std::vector<Content> contents{
-      {"multipliers λ, maximum", "maximum error of λ in N", {"lambda", "max_absolute"}, {k - 1, k}},
-      {"multipliers λ, at t_{end}", "error of λ at t_{end} in N", {"lambda", "end_absolute"}, {k}},
-      {"configuration q, maximum", "maximum error of q", {"q", "max_absolute"}, {k}},
-      {"velocity v, maximum", "maximum error of v", {"v", "max_absolute"}, {k}}};
-  Figure figure{.title = fmt::format("Global errors for k = {} (constrained heavy top, R^3×SO(3))", k),
-                .rows = 2,
-                .columns = 2,
-                .panels = {}};
+      {"multipliers λ, maximum", "maximum error of λ in N", {"lambda", "max_absolute"}, {order - 1, order}},
+      {"multipliers λ, at t_{end}", "error of λ at t_{end} in N", {"lambda", "end_absolute"}, {order}},
+      {"configuration q, maximum", "maximum error of q in m, rad", {"q", "max_absolute"}, {order}},
+      {"velocity v, maximum", "maximum error of v in m/s, rad/s", {"v", "max_absolute"}, {order}}};
+  Figure figure{.title = std::move(title), .rows = 2, .columns = 2, .panels = {}};
   for (const Content& content : contents) {
     Panel panel{.title = content.title, .x_label = step_label, .y_label = content.label};
-    for (const bool modified : {false, true})
+    for (const TransientCurve& curve : curves)
+      add_curves(panel, records, curve.filter, content.quantity, curve.label, curve.style, curve.broad);
+    for (const int slope : content.orders) panel.orders.push_back({.order = slope});
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+// Figure 1 for any k.
+Figure modified_start_figure(const std::vector<Json>& records, int k) {
+  const auto filter = [k](bool modified) {
+    return [k, modified](const Json& r) {
+      return has_option(r, "k", k) && has_option(r, "modified_start", modified);
+    };
+  };
+  return transient_figure(records,
+                          fmt::format("Global errors for k = {} (constrained heavy top, R^3×SO(3))", k), k,
+                          {{"exact starting velocities", filter(false), 0, true},
+                           {"starting velocities modified, eq. (56)", filter(true), 2, false}});
+}
+
+// Theorem 3: the first four steps cover n = k, ..., 2k - 1 for every k <= 4.
+Figure first_steps_figure(const std::vector<Json>& records) {
+  Figure figure{
+      .title = "Largest errors of the first four steps, starting velocities by eq. (56) (R^3×SO(3))",
+      .rows = 1,
+      .columns = 3,
+      .panels = {}};
+  const std::vector<std::pair<std::string, std::string>> components{
+      {"q", "error of q in m, rad"}, {"v", "error of v in m/s, rad/s"}, {"lambda", "error of λ in N"}};
+  for (const auto& [component, label] : components) {
+    Panel panel{.title = "", .x_label = step_label, .y_label = label};
+    for (int k = 2; k <= 4; ++k) {
       add_curves(
           panel, records,
-          [&](const Json& r) { return has_option(r, "k", k) && has_option(r, "modified_start", modified); },
-          content.quantity, modified ? "starting velocities modified, eq. (56)" : "exact starting velocities",
-          modified ? 2 : 0, !modified);
-    for (const int order : content.orders) panel.orders.push_back({.order = order});
+          [k](const Json& r) { return has_option(r, "k", k) && has_option(r, "modified_start", true); },
+          {component, "max_absolute"}, fmt::format("k = {}", k), k - 2);
+      panel.orders.push_back({.order = component == "q" ? k + 1 : k, .near = fmt::format("k = {}", k)});
+    }
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+Figure generalized_alpha_figure(const std::vector<Json>& records) {
+  const auto filter = [](const char* form, bool modified) {
+    return [form, modified](const Json& r) {
+      return r.at("formulation") == "R3xSO3" && has_option(r, "form", form) &&
+             has_option(r, "modified_start", modified);
+    };
+  };
+  return transient_figure(records, "Generalized-α, ρ_∞ = 0.9 (constrained heavy top, R^3×SO(3))", 2,
+                          {{"index 3", filter("index3", false), 0, true},
+                           {"index 3, perturbed starting velocity", filter("index3", true), 2, false},
+                           {"stabilized index 2", filter("stabilized_index2", false), 1, false}});
+}
+
+Figure stabilized_figure(const std::vector<Json>& records) {
+  Figure figure{.title = "BLieDF2nd in the stabilized index-2 form (heavy top, R^3×SO(3))",
+                .rows = 1,
+                .columns = 2,
+                .panels = {}};
+  const std::vector<std::pair<std::string, std::string>> components{{"q", "maximum error of q in m, rad"},
+                                                                    {"lambda", "maximum error of λ in N"}};
+  for (const auto& [component, label] : components) {
+    Panel panel{.title = "", .x_label = step_label, .y_label = label};
+    for (int k = 2; k <= 4; ++k) {
+      add_curves(
+          panel, records, [k](const Json& r) { return has_option(r, "k", k); }, {component, "max_absolute"},
+          fmt::format("k = {}", k), k - 2);
+      panel.orders.push_back({.order = k, .near = fmt::format("k = {}", k)});
+    }
     figure.panels.push_back(std::move(panel));
   }
   return figure;
@@ -105,18 +177,25 @@ Figure two_columns(const std::vector<Json>& records, const std::string& title, c
 const std::vector<PaperFigure>& paper_figures() {
   // Without L_k the unconstrained k = 3 shows its order 2 only below h = 2e-6 s: its errors of order 2 and 3 are of
   // opposite sign and cancel near h = 1.5e-5 s.
-  static const std::vector<PaperFigure> list{{"figure1", {"figure1.json"}},
-                                             {"figure2", {"figure2.json"}},
-                                             {"figure3", {"figure3.json", "figure3_small_steps.json"}},
-                                             {"figure4", {"figure4.json"}}};
+  static const std::vector<PaperFigure> list{
+      {"figure1", {"figure1.json"}},
+      {"figure2", {"figure2.json"}},
+      {"figure3", {"figure3.json", "figure3_small_steps.json"}},
+      {"figure4", {"figure4.json"}},
+      {"first_steps", {"first_steps.json"}},
+      {"generalized_alpha", {"generalized_alpha.json", "generalized_alpha_so3.json"}},
+      {"stabilized_index2", {"stabilized_index2.json"}}};
   return list;
 }
 
 std::map<std::string, Figure> draw_paper_figure(const PaperFigure& figure, const std::vector<Json>& records) {
   if (figure.name == "figure1")
-    return {{"figure1", transient_figure(records, 2)},
-            {"figure1_k3", transient_figure(records, 3)},
-            {"figure1_k4", transient_figure(records, 4)}};
+    return {{"figure1", modified_start_figure(records, 2)},
+            {"figure1_k3", modified_start_figure(records, 3)},
+            {"figure1_k4", modified_start_figure(records, 4)}};
+  if (figure.name == "first_steps") return {{"first_steps", first_steps_figure(records)}};
+  if (figure.name == "generalized_alpha") return {{"generalized_alpha", generalized_alpha_figure(records)}};
+  if (figure.name == "stabilized_index2") return {{"stabilized_index2", stabilized_figure(records)}};
   if (figure.name == "figure2")
     return {{"figure2",
              two_columns(records, "Local errors in q after one step (constrained heavy top, R^3×SO(3))",

@@ -8,7 +8,8 @@
 #include "harness/strict_json.h"
 #include "plots/figure.h"
 
-// The figures of Wieloch & Arnold's paper: which study feeds which panels.
+// The figures of Wieloch & Arnold's paper, and those in their manner for the other methods: which study feeds which
+// panels.
 
 namespace liebench {
 
@@ -18,7 +19,7 @@ struct PaperFigure {
   std::vector<std::string_view> studies;  // files in harness/studies
 };
 
-// Figures 1 to 4 and what they show, in this order.
+// Figures 1 to 4 of the paper, then the others, in this order.
 const std::vector<PaperFigure>& paper_figures();
 
 // Pictures of a figure by file name: Figure 1 gives figure1 for k = 2 as in the paper and figure1_k3,

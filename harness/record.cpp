@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fstream>
 
-#include "harness/embedded.h"
 #include "harness/errors.h"
 
 namespace liebench {
@@ -29,6 +28,7 @@ Json norms(const ErrorNorms& e) {
 Json drift(const Drift& d) {
   Json j;
   j["energy"] = finite(d.energy, "energy");
+  j["angular_momentum"] = finite(d.angular_momentum, "angular_momentum");
   if (d.position_constraint) j["position_constraint"] = finite(*d.position_constraint, "position_constraint");
   if (d.velocity_constraint) j["velocity_constraint"] = finite(*d.velocity_constraint, "velocity_constraint");
   j["group"] = finite(d.group, "group");
@@ -129,10 +129,6 @@ std::vector<Json> read_records(const std::filesystem::path& file) {
     records.push_back(parse_record(line, place));
   }
   return records;
-}
-
-std::string_view record_schema_text() {
-  return embedded_file("record.schema.json");
 }
 
 }  // namespace liebench

@@ -23,7 +23,4 @@ Json parse_record(std::string_view line, const std::string& place);
 // where one is not a record of this schema.
 std::vector<Json> read_records(const std::filesystem::path& file);
 
-// The JSON schema of a record, as a text.
-std::string_view record_schema_text();
-
 }  // namespace liebench

@@ -34,6 +34,7 @@ struct ErrorNorms {
 // fewer) and the last.
 struct Drift {
   double energy = 0.0;                        // |E_n - E(t_0)|, J
+  double angular_momentum = 0.0;              // |L_n - L(t_0)|, see MechanicalSystem, kg m^2/s
   std::optional<double> position_constraint;  // max-norm of Phi(q_n)
   std::optional<double> velocity_constraint;  // max-norm of B(q_n) v_n
   double group = 0.0;                         // see LieGroup: defect

@@ -61,6 +61,8 @@ class Monitor {
 
   Monitor(const S& system, std::uint64_t steps)
       : system_(system), stride_(std::max<std::uint64_t>(1, steps / 1000)), steps_(steps) {
+    initial_angular_momentum_ =
+        to_double(system.angular_momentum(system.initial_configuration(), system.initial_velocity()));
     initial_energy_ = to_double(system.energy(system.initial_configuration(), system.initial_velocity()));
   }
 
@@ -98,6 +100,9 @@ class Monitor {
     const auto& q = stepper.configuration();
     const auto& v = stepper.velocity();
     drift_.energy = std::max(drift_.energy, std::abs(to_double(system_.energy(q, v)) - initial_energy_));
+    drift_.angular_momentum =
+        std::max(drift_.angular_momentum,
+                 std::abs(to_double(system_.angular_momentum(q, v)) - initial_angular_momentum_));
     drift_.group = std::max(drift_.group, to_double(S::Group::defect(q)));
     if constexpr (S::constraints > 0) {
       drift_.position_constraint =
@@ -111,6 +116,7 @@ class Monitor {
   std::uint64_t stride_;
   std::uint64_t steps_;
   double initial_energy_;
+  double initial_angular_momentum_;
   ErrorNorms q_, v_, lambda_;
   Drift drift_;
 };

@@ -108,7 +108,14 @@ Json parse_json(std::string_view text, const std::string& source) {
     // or "number"
     const std::size_t bracket = reason.find("] ");
     if (bracket != std::string::npos) reason = reason.substr(bracket + 2);
-    throw InputError(source, "not valid JSON: " + reason);
+    const bool number =
+        reason.find("overflow") != std::string::npos || text.find("NaN") != std::string_view::npos ||
+        text.find("nan") != std::string_view::npos || text.find("Infinity") != std::string_view::npos;
+    throw InputError(source,
+                     "not valid JSON: " + reason +
+                         (number ? "; every number must be finite: NaN, Infinity and values beyond 1.8e308 "
+                                   "are not allowed"
+                                 : ""));
   }
 }
 

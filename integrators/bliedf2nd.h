@@ -11,6 +11,7 @@
 #include "integrators/audit.h"
 #include "integrators/bdf_coefficients.h"
 #include "integrators/consistent_projection.h"
+#include "integrators/form.h"
 #include "integrators/history.h"
 #include "integrators/newton.h"
 #include "integrators/option.h"
@@ -22,6 +23,9 @@
 //   sum_{i=1}^k gamma_i Dq_{n+1-i} = v_{n+1} + h^2 L_k(v_n, ..., v_{n-k+1})               (20b), (23b)
 //   (1/h) M(q_{n+1}) sum_{i=0}^k alpha_i v_{n+1-i} = -g - B^T lambda at t_{n+1}           (20c), (23c)
 //   Phi(q_{n+1}) = 0                                                                      (23d), index 3
+//
+// In the stabilized index-2 form gamma_1 B(q_n)^T eta_{n+1} joins the left side of (23b), and B(q_{n+1}) v_{n+1} = 0; there
+// lambda has no transient phase and needs no modified start.
 //
 // Order k in q, v and lambda with L_k of eq. (22), order min(k, 2) with L_k = 0.
 
@@ -46,11 +50,11 @@ struct BLieDF2nd {
        .kind = OptionKind::boolean,
        .fallback = 0,
        .meaning = "starting velocities of eq. (56), against the order reduction of lambda in the transient "
-                  "phase (constrained problems)"},
+                  "phase (index 3)"},
       {.name = "form",
        .kind = OptionKind::choice,
        .fallback = 0,
-       .choices = {"index3"},
+       .choices = {"index3", "stabilized_index2"},
        .meaning = "formulation of the constrained equations"},
   });
 
@@ -58,34 +62,45 @@ struct BLieDF2nd {
     int k = 2;
     bool correction = true;
     bool modified_start = false;
+    Form form = Form::index3;
   };
   static Options options(const OptionValues& values) {
     return {.k = values.integer("k"),
             .correction = values.boolean("correction"),
-            .modified_start = values.boolean("modified_start")};
+            .modified_start = values.boolean("modified_start"),
+            .form = form_of(values.choice("form"))};
   }
 
-  template <int k, MechanicalSystem S, class Audit = NoAudit>
+  template <int k, MechanicalSystem S, class Audit = NoAudit, Form form = Form::index3>
   class Stepper;
 
   // Calls visit(stepper) with the stepper that the options ask for.
   template <MechanicalSystem S, class Audit, class Visitor>
   static auto with_stepper(const Options& options, const S& system, Visitor&& visit) {
+    if constexpr (S::constraints > 0)
+      if (options.form == Form::stabilized_index2)
+        return with_steps<Form::stabilized_index2, S, Audit>(options, system, visit);
+    return with_steps<Form::index3, S, Audit>(options, system, visit);
+  }
+
+ private:
+  template <Form form, MechanicalSystem S, class Audit, class Visitor>
+  static auto with_steps(const Options& options, const S& system, Visitor& visit) {
     switch (options.k) {
       case 1:
-        return visit(Stepper<1, S, Audit>(system, options));
+        return visit(Stepper<1, S, Audit, form>(system, options));
       case 2:
-        return visit(Stepper<2, S, Audit>(system, options));
+        return visit(Stepper<2, S, Audit, form>(system, options));
       case 3:
-        return visit(Stepper<3, S, Audit>(system, options));
+        return visit(Stepper<3, S, Audit, form>(system, options));
       default:
-        return visit(Stepper<4, S, Audit>(system, options));
+        return visit(Stepper<4, S, Audit, form>(system, options));
     }
   }
 };
 
 // The running method: start() once, then step() as often as wanted. Nothing is allocated.
-template <int k, MechanicalSystem S, class Audit>
+template <int k, MechanicalSystem S, class Audit, Form form>
 class BLieDF2nd::Stepper {
  public:
   using System = S;
@@ -98,7 +113,8 @@ class BLieDF2nd::Stepper {
   Stepper(const S& system, const Options& options)
       : options_(options), coefficients_(bdf_coefficients<k, T>()), newton_(system) {
     lambda_.setConstant(T(0.0));
-    for (Velocity<S>* v : {&velocity_, &increment_, &correction_, &first_change_}) v->setConstant(T(0.0));
+    for (Velocity<S>* v : {&velocity_, &increment_, &correction_, &first_change_, &stabilization_})
+      v->setConstant(T(0.0));
   }
 
   // Eq. (21): q_{k-1}, increments Dq_0 ... Dq_{k-2} by k - 1 logarithms, v_0 ... v_{k-1}; and eq. (56) where
@@ -131,7 +147,7 @@ class BLieDF2nd::Stepper {
       correction_ = scaled_correction();
       known -= correction_;
     }
-    if constexpr (S::constraints > 0)
+    if constexpr (S::constraints > 0 && !stabilized)
       if (options_.modified_start) {
         const StepResult modified = modify_starting_velocities(points, known);
         if (modified.outcome != Outcome::ok) return modified;
@@ -151,11 +167,12 @@ class BLieDF2nd::Stepper {
   StepResult step() {
     constexpr int m = Group::dimension;
     const AffineClosure<S> closure = next_closure();
-    typename NewtonKernel<S, Audit>::Unknowns z;
+    typename Kernel::Unknowns z;
     z.template head<m>() = predicted_change(closure);
-    if constexpr (S::constraints > 0) z.template tail<S::constraints>() = scaled_lambdas_.extrapolated();
+    if constexpr (S::constraints > 0) z.template segment<S::constraints>(m) = scaled_lambdas_.extrapolated();
+    if constexpr (stabilized) z.template tail<S::constraints>().setConstant(T(0.0));
     const T t = t_ + h_;
-    typename NewtonKernel<S, Audit>::Point point;
+    typename Kernel::Point point;
     const StepResult result = newton_.solve(t, h_, q_, closure, z, point);
     if (result.outcome != Outcome::ok) return result;
     if (!(to_double(Group::rotation_angle(point.step)) < std::numbers::pi))
@@ -164,12 +181,13 @@ class BLieDF2nd::Stepper {
     t_ = t;
     q_ = point.q;
     velocity_ = point.v;
-    velocity_changes_.push(closure.change_of_velocity(change));
+    velocity_changes_.push(closure.change_of_velocity(point.change));
+    if constexpr (stabilized) stabilization_ = point.change - change;
     increment_ += change;
     increment_changes_.push(change);
     first_ = false;
     if constexpr (S::constraints > 0) {
-      const Multipliers<S> scaled_lambda = z.template tail<S::constraints>();
+      const Multipliers<S> scaled_lambda = z.template segment<S::constraints>(m);
       lambda_ = scaled_lambda / h_;
       scaled_lambdas_.push(scaled_lambda);
     }
@@ -189,6 +207,9 @@ class BLieDF2nd::Stepper {
     const auto& to = points[std::size_t(j + 1)].q;
     return Group::log(Group::compose(Group::inverse(from), to)) / h_;
   }
+
+  using Kernel = NewtonKernel<S, form, Audit>;
+  static constexpr bool stabilized = S::constraints > 0 && form == Form::stabilized_index2;
 
   bool has_correction() const { return k >= 3 && !Group::commutative && options_.correction; }
 
@@ -213,6 +234,8 @@ class BLieDF2nd::Stepper {
         correction_ = correction;
       }
     }
+    // The position increments are those without eta, the velocities those with it.
+    if constexpr (stabilized) change -= gamma[0] * stabilization_;
     Velocity<S> acceleration = gamma[0] * change;
     for (int i = 1; i < k; ++i) acceleration += gamma[std::size_t(i)] * velocity_changes_[i - 1];
     return {.base = increment_,
@@ -257,15 +280,16 @@ class BLieDF2nd::Stepper {
 
   Options options_;
   BdfCoefficients<k, T> coefficients_;
-  NewtonKernel<S, Audit> newton_;
+  Kernel newton_;
   T h_ = T(0.0);
   T t_ = T(0.0);
   Configuration<S> q_ = Group::identity();
-  Velocity<S> velocity_;      // v_n
-  Multipliers<S> lambda_;     // lambda_n
-  Velocity<S> increment_;     // Dq_{n-1}
-  Velocity<S> correction_;    // h^2 L_k of the step before
-  Velocity<S> first_change_;  // v_k - v_{k-1} at d = 0
+  Velocity<S> velocity_;       // v_n
+  Multipliers<S> lambda_;      // lambda_n
+  Velocity<S> increment_;      // Dq_{n-1}
+  Velocity<S> correction_;     // h^2 L_k of the step before
+  Velocity<S> first_change_;   // v_k - v_{k-1} at d = 0
+  Velocity<S> stabilization_;  // B(q_{n-1})^T eta_n; zero in the index-3 form
   bool first_ = true;
   History<Velocity<S>, k + 1> velocity_changes_;   // v_n - v_{n-1}, ...; more than k - 1 for the prediction
   History<Velocity<S>, k> increment_changes_;      // Dq_{n-1} - Dq_{n-2}, ...

@@ -49,4 +49,31 @@ std::optional<SaddlePointSolution<S>> solve_saddle_point(const S& system, const 
   return s;
 }
 
+// The acceleration v' that the equations of motion give at (t, q, v): M v' = -g without constraints; with them, together
+// with lambda, such that the second derivative of the constraint vanishes, B v' = -Z(v, v).
+template <MechanicalSystem S>
+std::optional<Velocity<S>> consistent_acceleration(const S& system, const typename S::Scalar& t,
+                                                   const Configuration<S>& q, const Velocity<S>& v) {
+  using T = typename S::Scalar;
+  const Velocity<S> force = -system.force(t, q, v);
+  if constexpr (S::constraints > 0) {
+    const auto solution =
+        solve_saddle_point(system, q, force, Multipliers<S>(-system.constraint_curvature(q, v)));
+    if (!solution) return std::nullopt;
+    return solution->x;
+  } else {
+    constexpr int m = S::Group::dimension;
+    DenseLu<double, m> lu;
+    const VelocityMatrix<S> M = system.mass_matrix(q);
+    if (!lu.factorize(M.template cast<double>())) return std::nullopt;
+    Velocity<S> a = Velocity<S>::Constant(T(0.0));
+    constexpr int passes = ScalarTraits<T>::extended ? 4 : 2;
+    for (int pass = 0; pass < passes; ++pass) {
+      const Velocity<S> r = force - system.momentum(q, a);
+      a += lu.solve(r.template cast<double>()).template cast<T>();
+    }
+    return a;
+  }
+}
+
 }  // namespace liebench

@@ -16,6 +16,8 @@ namespace liebench {
 template <class T, int n>
 class DenseLu {
  public:
+  DenseLu() { lu_.setConstant(T(0.0)); }
+
   using Matrix = Eigen::Matrix<T, n, n>;
   using Vector = Eigen::Matrix<T, n, 1>;
 

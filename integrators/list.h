@@ -1,6 +1,7 @@
 #pragma once
 
 #include "integrators/bliedf2nd.h"
+#include "integrators/generalized_alpha.h"
 
 namespace liebench {
 
@@ -9,6 +10,6 @@ struct IntegratorList {};
 
 // Every integrator of the program. A method that is not in this list is nowhere; one that is in it is in
 // every command.
-using Integrators = IntegratorList<BLieDF2nd>;
+using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha>;
 
 }  // namespace liebench

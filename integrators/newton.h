@@ -21,8 +21,8 @@
 //   - converged, when s_i or the predicted next one, theta s_i, is below 1/20;
 //   - converged at the round-off floor, when corrections no longer shrink by a factor of 2 and s_i is below 32, or,
 //     with a matrix formed in this step, below 1e5, the floor that the condition of the matrix allows;
-//   - newton_diverged, when above that floor two corrections in a row grow with a matrix formed in this step, or
-//     after 60 iterations.
+//   - newton_diverged, when above that floor, with a matrix formed in this step, a correction grows after one that did not
+//     shrink by a factor of 2; after 60 iterations; or when an increment turns by more than 1e8 rad.
 // The round-off unit of d is eps times |d| + |Dq| / 100, and eps |q| / h in addition where a constraint is present:
 // Phi is known to eps |q| only, and its row is Phi / h. That of h lambda is eps |h lambda| and the unit of d through
 // the mass matrix. (A tolerance of eps |Dq| would do for the increment, but what it leaves of the residual acts like
@@ -30,16 +30,16 @@
 
 namespace liebench {
 
-template <MechanicalSystem S, class Audit>
+template <MechanicalSystem S, Form form, class Audit>
 class NewtonKernel {
  public:
   using T = typename S::Scalar;
-  using Equation = StepEquation<S>;
+  using Equation = StepEquation<S, form>;
   using Unknowns = typename Equation::Unknowns;
   using Point = typename Equation::Point;
   static constexpr int m = Equation::m;
   static constexpr int l = Equation::l;
-  static constexpr int n = m + l;
+  static constexpr int n = Equation::n;
 
   explicit NewtonKernel(const S& system) : system_(system), linear_system_(system.template cast<double>()) {}
 
@@ -50,19 +50,20 @@ class NewtonKernel {
   template <class Closure>
   StepResult solve(const T& t, const T& h, const Configuration<S>& q_n, const Closure& closure, Unknowns& z,
                    Point& point) {
+    const typename Equation::Origin origin = Equation::origin(system_, q_n);
     bool fresh = false;    // the matrix was formed in this step
     bool stalled = false;  // the last increment did not shrink, with a fresh matrix
     double previous = 0.0;
     const double scale = fixed_scale(closure, q_n, to_double(h));
     Unknowns r = Unknowns::Constant(T(0.0));
     if (!factorized_ || marginal_cost_exceeds_average()) {
-      point = Equation::point(q_n, h, closure, z);
+      point = Equation::point(origin, h, closure, z);
       const auto cause = factorized_ ? FactorizationCause::refresh : FactorizationCause::first;
-      if (!factorize(t, h, point, closure, z, cause)) return failure(Outcome::singular_matrix, r);
+      if (!factorize(t, h, origin, point, closure, z, cause)) return failure(Outcome::singular_matrix, r);
       fresh = true;
     }
     for (int iteration = 1; iteration <= max_iterations; ++iteration) {
-      point = Equation::point(q_n, h, closure, z);
+      point = Equation::point(origin, h, closure, z);
       r = Equation::residual(system_, t, h, point, z);
       audit_.residual();
       const Correction d = lu_.solve(to_linear(r));
@@ -78,17 +79,17 @@ class NewtonKernel {
       const double rate = iteration > 1 ? std::max(size, 1.0) / previous : rate_;
       if (size <= unit || rate * size <= unit) {
         rate_ = std::min(1.0, rate * safety);
-        return finish(q_n, h, closure, z, point, iteration);
+        return finish(origin, h, closure, z, point, iteration);
       }
       if (iteration > 1 && rate > slowest_rate) {
         if (size <= noise) {
-          return finish(q_n, h, closure, z, point, iteration);
+          return finish(origin, h, closure, z, point, iteration);
         } else if (!fresh) {
-          if (!factorize(t, h, point, closure, z, FactorizationCause::slow_convergence))
+          if (!factorize(t, h, origin, point, closure, z, FactorizationCause::slow_convergence))
             return failure(Outcome::singular_matrix, r);
           fresh = true;
         } else if (size <= floor) {
-          return finish(q_n, h, closure, z, point, iteration);
+          return finish(origin, h, closure, z, point, iteration);
         } else if (stalled && rate > 1.0) {
           return failure(Outcome::newton_diverged, r);
         } else {
@@ -141,10 +142,12 @@ class NewtonKernel {
     double size = relative(d.template head<m>().template lpNorm<Eigen::Infinity>(), scale);
     if constexpr (l > 0) {
       const double multiplier_scale =
-          z_linear.template tail<l>().template lpNorm<Eigen::Infinity>() + mass_scale_ * scale;
-      size =
-          std::max(size, relative(d.template tail<l>().template lpNorm<Eigen::Infinity>(), multiplier_scale));
+          z_linear.template segment<l>(m).template lpNorm<Eigen::Infinity>() + mass_scale_ * scale;
+      size = std::max(
+          size, relative(d.template segment<l>(m).template lpNorm<Eigen::Infinity>(), multiplier_scale));
     }
+    if constexpr (Equation::stabilized)
+      size = std::max(size, relative(d.template tail<l>().template lpNorm<Eigen::Infinity>(), scale));
     return size;
   }
 
@@ -155,19 +158,22 @@ class NewtonKernel {
   }
 
   template <class Closure>
-  bool factorize(const T& t, const T& h, const Point& point, const Closure& closure, const Unknowns& z,
-                 FactorizationCause cause) {
+  bool factorize(const T& t, const T& h, const typename Equation::Origin& origin, const Point& point,
+                 const Closure& closure, const Unknowns& z, FactorizationCause cause) {
     typename Lu::Matrix J;
     if constexpr (std::is_same_v<T, double>) {
-      Equation::jacobian(system_, t, h, point, z, closure.velocity_derivative(),
+      Equation::jacobian(system_, t, h, origin, point, z, closure.velocity_derivative(),
                          closure.scaled_acceleration_derivative(), J);
     } else {
-      using LinearEquation = StepEquation<LinearSystem>;
+      using LinearEquation = StepEquation<LinearSystem, form>;
+      const typename LinearEquation::Origin linear_origin{S::Group::template cast<double>(origin.q),
+                                                          origin.gradient.template cast<double>()};
       const typename LinearEquation::Point linear_point{
-          point.step.template cast<double>(), S::Group::template cast<double>(point.q),
-          point.v.template cast<double>(), point.scaled_acceleration.template cast<double>()};
-      LinearEquation::jacobian(linear_system_, to_double(t), to_double(h), linear_point, to_linear(z),
-                               to_double(closure.velocity_derivative()),
+          point.change.template cast<double>(), point.step.template cast<double>(),
+          S::Group::template cast<double>(point.q), point.v.template cast<double>(),
+          point.scaled_acceleration.template cast<double>()};
+      LinearEquation::jacobian(linear_system_, to_double(t), to_double(h), linear_origin, linear_point,
+                               to_linear(z), to_double(closure.velocity_derivative()),
                                to_double(closure.scaled_acceleration_derivative()), J);
     }
     audit_.jacobian();
@@ -182,12 +188,12 @@ class NewtonKernel {
   }
 
   template <class Closure>
-  StepResult finish(const Configuration<S>& q_n, const T& h, const Closure& closure, const Unknowns& z,
-                    Point& point, int iterations) {
+  StepResult finish(const typename Equation::Origin& origin, const T& h, const Closure& closure,
+                    const Unknowns& z, Point& point, int iterations) {
     spent_ += iterations;
     ++steps_;
     last_ = iterations;
-    point = Equation::point(q_n, h, closure, z);
+    point = Equation::point(origin, h, closure, z);
     return {};
   }
 

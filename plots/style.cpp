@@ -38,8 +38,8 @@ std::string_view colour_of(const Series& series) {
 // A second variant's marks are the larger ones: a ring around the filled mark where both agree.
 Look look_of(const Series& series) {
   const Style& style = style_of(series);
-  if (series.secondary) return {style.colour, "(12,7)", 0.8, style.open_mark, series.broad ? 0.95 : 0.68};
-  if (series.broad) return {style.colour, "1", 4.5, style.filled_mark, 0.62};
+  if (series.secondary) return {style.colour, "(12,7)", 0.8, style.open_mark, series.broad ? 1.1 : 0.68};
+  if (series.broad) return {style.colour, "1", 3.2, style.filled_mark, 0.55};
   return {style.colour, "1", 1.4, style.filled_mark, 0.34};
 }
 

@@ -39,6 +39,13 @@ struct HeavyTopData {
     R0 = rotation_matrix<T>(orientation / orientation.norm());
   }
 
+  // The direction against gravity; that of the third axis where there is none.
+  Vector vertical() const {
+    const T size = gravity.norm();
+    if (T(0.0) < size) return -gravity / size;
+    return Vector(T(0.0), T(0.0), T(1.0));
+  }
+
   // J about the tip (Steiner), kg m^2.
   Matrix inertia_about_tip() const {
     return inertia + mass * (center_of_mass.squaredNorm() * Matrix::Identity() -
@@ -92,6 +99,10 @@ class HeavyTopSO3 {
   }
   T energy(const Matrix& R, const Vector& omega) const {
     return omega.dot(inertia_ * omega) * 0.5 - weight_.dot(R * data_.center_of_mass);
+  }
+
+  T angular_momentum(const Matrix& R, const Vector& omega) const {
+    return data_.vertical().dot(R * (inertia_ * omega));
   }
 
   Matrix initial_configuration() const { return data_.R0; }
@@ -175,6 +186,12 @@ class HeavyTopR3xSO3 {
     return v.dot(momentum(q, v)) * 0.5 - weight_.dot(q.first);
   }
 
+  T angular_momentum(const Element& q, const Vector6& v) const {
+    const Vector momentum = data_.mass * v.template head<3>();
+    const Vector spin = data_.inertia * v.template tail<3>();
+    return data_.vertical().dot(q.first.cross(momentum) + q.second * spin);
+  }
+
   Vector constraint(const Element& q) const { return data_.center_of_mass - q.second.transpose() * q.first; }
   Gradient constraint_gradient(const Element& q) const {
     const Matrix Rt = q.second.transpose();
@@ -185,6 +202,14 @@ class HeavyTopR3xSO3 {
   Vector6 constraint_force(const Element& q, const Vector& lambda) const {
     const Vector y = q.second.transpose() * q.first;
     return join(-(q.second * lambda), y.cross(lambda));
+  }
+  // D_q(B(q) v) . (q w~), 3 x 6
+  Gradient constraint_gradient_derivative(const Element& q, const Vector6& v) const {
+    const Matrix Rt = q.second.transpose();
+    const Matrix W = skew(v.template tail<3>());
+    Gradient Z;
+    Z << W * Rt, W * skew(Rt * q.first) - skew(Rt * v.template head<3>());
+    return Z;
   }
   Vector constraint_curvature(const Element& q, const Vector6& v) const {
     const Vector omega = v.template tail<3>();

@@ -20,7 +20,10 @@ namespace liebench {
 //   force(t, q, v)          g(t, q, v): note the sign, applied forces enter negatively
 //   damping(t, q, v)        C = dg/dv, m x m
 //   stiffness(t, q, v, a, lambda)   K, m x m: K w = D_q(M(q) a + g(t, q, v) + B(q)^T lambda) . (q w~)
+// Invariants of the exact motion, where nothing dissipates:
 //   energy(q, v)            kinetic plus potential energy, J
+//   angular_momentum(q, v)  about the origin, along the axis of symmetry of the force (gravity), kg m^2/s
+//
 //   initial_configuration(), initial_velocity()   q(t_0), v(t_0)
 //
 // Flags: `constraints` = l; `constant_mass` (M does not depend on q).
@@ -39,6 +42,7 @@ concept MechanicalSystem = LieGroup<typename S::Group> &&
   { s.damping(t, q, v) } -> std::convertible_to<typename S::Group::TangentMatrix>;
   { s.stiffness(t, q, v, v, lambda) } -> std::convertible_to<typename S::Group::TangentMatrix>;
   { s.energy(q, v) } -> std::convertible_to<typename S::Scalar>;
+  { s.angular_momentum(q, v) } -> std::convertible_to<typename S::Scalar>;
   { s.initial_configuration() } -> std::convertible_to<typename S::Group::Element>;
   { s.initial_velocity() } -> std::convertible_to<typename S::Group::Tangent>;
 };
@@ -49,6 +53,7 @@ concept MechanicalSystem = LieGroup<typename S::Group> &&
 //   constraint_gradient(q)       B(q), l x m: D Phi(q) . (q w~) = B(q) w, eq. (18)
 //   constraint_force(q, lambda)  B(q)^T lambda, m
 //   constraint_curvature(q, v)   Z(q)(v, v), l, eq. (19): d^2 Phi / dt^2 = B v' + Z(v, v)
+//   constraint_gradient_derivative(q, v)   l x m: w -> Z(q)(v, w) = D_q(B(q) v) . (q w~)
 template <class S>
 concept ConstrainedSystem = MechanicalSystem<S> &&(S::constraints > 0) &&
                             requires(const S& s, const typename S::Group::Element& q,

@@ -59,6 +59,7 @@ int figures(const FigureOptions& options) {
     if (options.only.empty() ||
         std::find(options.only.begin(), options.only.end(), figure.name) != options.only.end())
       chosen.push_back(figure);
+  if (options.out.empty()) throw InputError("--out", "is empty; a folder is expected");
   require_gnuplot();
   const std::filesystem::path out(options.out);
   require_writable_folder(out);

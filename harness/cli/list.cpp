@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "harness/cli/commands.h"
+#include "harness/embedded.h"
 #include "harness/errors.h"
 #include "harness/methods.h"
 #include "harness/problems.h"
@@ -54,7 +55,8 @@ void describe_problem(const ProblemInfo& problem) {
 }
 
 void describe(const std::string& name) {
-  std::vector<std::string> names;
+  std::vector<std::string> names{"record", "study"};
+  if (name == "record" || name == "study") return fmt::print("{}", embedded_file(name + ".schema.json"));
   for (const MethodInfo& method : methods()) {
     if (method.name == name) return describe_method(method);
     names.emplace_back(method.name);
@@ -80,10 +82,12 @@ void add_list(CLI::App& app, int&) {
 }
 
 void add_describe(CLI::App& app, int&) {
-  CLI::App* command =
-      app.add_subcommand("describe", "Say what an integrator or a problem is and what it takes");
+  CLI::App* command = app.add_subcommand(
+      "describe", "Say what an integrator or a problem is and what it takes; record, study: the JSON schema");
   auto name = std::make_shared<std::string>();
-  command->add_option("name", *name, "a name from `liebench list`")->required()->type_name("NAME");
+  command->add_option("name", *name, "a name from `liebench list`, or record or study")
+      ->required()
+      ->type_name("NAME");
   command->footer("Example:\n  liebench describe heavy_top");
   command->callback([name] { describe(*name); });
 }

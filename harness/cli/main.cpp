@@ -25,8 +25,8 @@ void require_known_command(const CLI::App& app, int argc, char** argv) {
     commands.push_back(command->get_name());
   const std::string word = argv[1];
   if (std::find(commands.begin(), commands.end(), word) == commands.end())
-    throw InputError("liebench", fmt::format("unknown command \"{}\"; allowed: {}{}", word,
-                                             quoted_list(commands), suggestion(word, commands)));
+    throw InputError("", fmt::format("unknown command \"{}\"; allowed: {}{}", word, quoted_list(commands),
+                                     suggestion(word, commands)));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "harness/embedded.h"
 #include "harness/record.h"
 #include "tests/cli/program_test.h"
 #include "tests/harness/json_schema.h"
@@ -34,7 +35,7 @@ TEST_F(FiguresTest, OneFigureLeavesItsRecordsItsPicturesAndItsVerdictAndNothingE
   EXPECT_TRUE(contains(verification, "Theorem 1"));
   EXPECT_FALSE(contains(verification, "Global errors")) << "figure 4 was not asked for";
 
-  const JsonSchema schema(record_schema_text());
+  const JsonSchema schema(embedded_file("record.schema.json"));
   const auto lines = lines_of(read_text(out / "figure2.jsonl"));
   EXPECT_EQ(lines.size(), 2u * 6u * 2u * 13u);  // formulations, methods, precisions, step sizes
   for (const std::string& line : lines) ASSERT_EQ(schema.violations(line), "") << line;

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <regex>
 
+#include "harness/embedded.h"
 #include "harness/record.h"
 #include "tests/cli/program_test.h"
 #include "tests/harness/json_schema.h"
@@ -88,7 +89,7 @@ TEST_F(OutputTest, TheStudyThatDescribeShowsCanBeRun) {
 }
 
 TEST_F(OutputTest, TheFixedRecordsAreRecordsOfToday) {
-  const JsonSchema schema(record_schema_text());
+  const JsonSchema schema(embedded_file("record.schema.json"));
   for (const std::string& line : lines_of(read_text(small_records())))
     ASSERT_EQ(schema.violations(line), "") << line;
 }

@@ -6,6 +6,7 @@
 #include <set>
 #include <thread>
 
+#include "harness/embedded.h"
 #include "harness/record.h"
 #include "tests/cli/program_test.h"
 #include "tests/harness/json_schema.h"
@@ -46,7 +47,7 @@ TEST_F(RunTest, EveryRecordIsValidByTheSchemaFailuresToo) {
   study.erase("t_end");
   study["steps"] = 1;
   write_study(study, "local.json");
-  const JsonSchema schema(record_schema_text());
+  const JsonSchema schema(embedded_file("record.schema.json"));
   std::set<std::string> outcomes;
   for (const char* name : {"global.json", "local.json"}) {
     const ProgramResult result = run({"run", name});

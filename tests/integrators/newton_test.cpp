@@ -40,18 +40,19 @@ double distance_from_solution(const S& system, double h, const Configuration<S>&
   using T = typename S::Scalar;
   using E = StepEquation<S>;
   constexpr int n = E::m + E::l;
-  const auto point = E::point(q_n, T(h), closure, z);
+  const auto point = E::point(E::origin(system, q_n), T(h), closure, z);
   const auto r = E::residual(system, T(0.0), T(h), point, z);
   using D = typename S::template rebind<double>;
   using ED = StepEquation<D>;
   const D linear = system.template cast<double>();
   const typename ED::Point linear_point{
-      point.step.template cast<double>(), S::Group::template cast<double>(point.q),
-      point.v.template cast<double>(), point.scaled_acceleration.template cast<double>()};
+      point.change.template cast<double>(), point.step.template cast<double>(),
+      S::Group::template cast<double>(point.q), point.v.template cast<double>(),
+      point.scaled_acceleration.template cast<double>()};
   Eigen::Matrix<double, n, n> J;
-  ED::jacobian(linear, 0.0, h, linear_point, z.template cast<double>(),
-               to_double(closure.velocity_derivative()), to_double(closure.scaled_acceleration_derivative()),
-               J);
+  ED::jacobian(linear, 0.0, h, ED::origin(linear, S::Group::template cast<double>(q_n)), linear_point,
+               z.template cast<double>(), to_double(closure.velocity_derivative()),
+               to_double(closure.scaled_acceleration_derivative()), J);
   const Eigen::Matrix<double, n, 1> d = J.fullPivLu().solve(r.template cast<double>().eval());
   const double eps = to_double(Eigen::NumTraits<T>::epsilon());
   const double q_scale = S::Group::stacked(q_n).template cast<double>().norm();
@@ -65,7 +66,7 @@ void expect_step_solved(const HeavyTopParameters& p, double h) {
   const S system(p);
   const Configuration<S> q = system.initial_configuration();
   const auto closure = closure_about<S>(system.initial_velocity());
-  NewtonKernel<S, KernelAudit> newton(system);
+  NewtonKernel<S, Form::index3, KernelAudit> newton(system);
   typename StepEquation<S>::Unknowns z = StepEquation<S>::Unknowns::Constant(T(0.0));
   typename StepEquation<S>::Point point;
   const StepResult result = newton.solve(T(0.0), T(h), q, closure, z, point);
@@ -74,7 +75,7 @@ void expect_step_solved(const HeavyTopParameters& p, double h) {
   // few eps each.
   EXPECT_LE(distance_from_solution(system, h, q, closure, z), 1e4) << S::formulation << ' ' << h;
   // The point handed back is that of the unknowns handed back.
-  const auto expected = StepEquation<S>::point(q, T(h), closure, z);
+  const auto expected = StepEquation<S>::point(StepEquation<S>::origin(system, q), T(h), closure, z);
   EXPECT_EQ(to_double((S::Group::stacked(point.q) - S::Group::stacked(expected.q)).norm()), 0.0);
   EXPECT_EQ(to_double((point.v - expected.v).norm()), 0.0);
 }
@@ -94,7 +95,7 @@ TEST(NewtonKernel, CountsEveryResidualSolveAndFactorization) {
   using S = HeavyTopR3xSO3<double>;
   const S system(slow_top());
   const auto closure = closure_about<S>(system.initial_velocity());
-  NewtonKernel<S, KernelAudit> newton(system);
+  NewtonKernel<S, Form::index3, KernelAudit> newton(system);
   StepEquation<S>::Point point;
   for (int step = 1; step <= 20; ++step) {
     StepEquation<S>::Unknowns z = StepEquation<S>::Unknowns::Zero();
@@ -120,7 +121,7 @@ TEST(NewtonKernel, SolvesALinearEquationWithOneFactorization) {
   const S system(p);
   auto closure = closure_about<S>(Eigen::Vector3d(1, 2, 3));
   closure.scaled_acceleration = Eigen::Vector3d(0.9, -1.8, 0.45);
-  NewtonKernel<S, KernelAudit> newton(system);
+  NewtonKernel<S, Form::index3, KernelAudit> newton(system);
   StepEquation<S>::Point point;
   for (int step = 0; step < 5; ++step) {
     StepEquation<S>::Unknowns z = StepEquation<S>::Unknowns::Zero();
@@ -137,7 +138,7 @@ template <class S>
 StepResult solve_from_rest(const S& system, double h) {
   Velocity<S> v = system.initial_velocity();
   const auto closure = closure_about<S>(v);
-  NewtonKernel<S, NoAudit> newton(system);
+  NewtonKernel<S, Form::index3, NoAudit> newton(system);
   typename StepEquation<S>::Unknowns z = StepEquation<S>::Unknowns::Zero();
   typename StepEquation<S>::Point point;
   return newton.solve(0.0, h, system.initial_configuration(), closure, z, point);
@@ -171,7 +172,7 @@ TEST(NewtonKernel, RecoversAfterAFailure) {
   // A failed step leaves no factorization behind that the next one would take.
   using S = Particle<double, ImpossibleConstraint>;
   const S system;
-  NewtonKernel<S, KernelAudit> newton(system);
+  NewtonKernel<S, Form::index3, KernelAudit> newton(system);
   const auto closure = closure_about<S>(system.initial_velocity());
   StepEquation<S>::Point point;
   for (int attempt = 1; attempt <= 3; ++attempt) {

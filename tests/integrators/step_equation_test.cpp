@@ -29,9 +29,9 @@ AffineClosure<S> closure_in(const AffineClosure<typename S::template rebind<doub
 }
 
 // A state somewhere: increments that turn by 0.3, offsets of their size.
-template <class S>
+template <class S, Form form = Form::index3>
 struct Sample {
-  static constexpr int n = StepEquation<S>::m + StepEquation<S>::l;
+  static constexpr int n = StepEquation<S, form>::n;
   double h;
   Configuration<S> q;
   AffineClosure<S> closure;
@@ -53,22 +53,25 @@ struct Sample {
 };
 
 // The Newton matrix is the derivative of the residual as a function of the unknowns: by Jets.
-template <class S>
+template <Form form, class S>
 void expect_jacobian_is_the_derivative(const S& system, double h) {
-  const Sample<S> s(system, h);
-  constexpr int n = Sample<S>::n;
+  const Sample<S, form> s(system, h);
+  constexpr int n = Sample<S, form>::n;
   using Jet = JetOf<n>;
   using JetSystem = typename S::template rebind<Jet>;
-  using JetEquation = StepEquation<JetSystem>;
+  using Equation = StepEquation<S, form>;
+  using JetEquation = StepEquation<JetSystem, form>;
   typename JetEquation::Unknowns z;
   for (int i = 0; i < n; ++i) z(i) = Jet(s.z(i), i);
-  const auto point =
-      JetEquation::point(S::Group::template cast<Jet>(s.q), Jet(h), closure_in<JetSystem>(s.closure), z);
-  const auto r = JetEquation::residual(system.template cast<Jet>(), Jet(0.0), Jet(h), point, z);
+  const JetSystem jet_system = system.template cast<Jet>();
+  const auto jet_origin = JetEquation::origin(jet_system, S::Group::template cast<Jet>(s.q));
+  const auto point = JetEquation::point(jet_origin, Jet(h), closure_in<JetSystem>(s.closure), z);
+  const auto r = JetEquation::residual(jet_system, Jet(0.0), Jet(h), point, z);
 
   Eigen::Matrix<double, n, n> J;
-  StepEquation<S>::jacobian(system, 0.0, h, StepEquation<S>::point(s.q, h, s.closure, s.z), s.z,
-                            s.closure.velocity_derivative(), s.closure.scaled_acceleration_derivative(), J);
+  const auto origin = Equation::origin(system, s.q);
+  Equation::jacobian(system, 0.0, h, origin, Equation::point(origin, h, s.closure, s.z), s.z,
+                     s.closure.velocity_derivative(), s.closure.scaled_acceleration_derivative(), J);
   Eigen::Matrix<double, n, n> expected;
   for (int i = 0; i < n; ++i) expected.row(i) = r(i).v.transpose();
   // Entries are sums of fewer than ten products of entries as large as those of the matrix, and of h^2 K
@@ -80,15 +83,16 @@ void expect_jacobian_is_the_derivative(const S& system, double h) {
 TEST(StepEquation, JacobianIsTheDerivativeOfTheResidual) {
   for (const HeavyTopParameters& p : sample_tops())
     for (const double h : {1.0, 1e-2, 1e-5}) {
-      expect_jacobian_is_the_derivative(Rotation(p), h);
-      expect_jacobian_is_the_derivative(Body(p), h);
+      expect_jacobian_is_the_derivative<Form::index3>(Rotation(p), h);
+      expect_jacobian_is_the_derivative<Form::index3>(Body(p), h);
+      expect_jacobian_is_the_derivative<Form::stabilized_index2>(Body(p), h);
     }
 }
 
 TEST(StepEquation, PointIsTheClosureOfTheIncrement) {
   const Body system(unsymmetric_top(1));
   const Sample<Body> s(system, 0.1);
-  const auto point = StepEquation<Body>::point(s.q, s.h, s.closure, s.z);
+  const auto point = StepEquation<Body>::point(StepEquation<Body>::origin(system, s.q), s.h, s.closure, s.z);
   const Velocity<Body> d = s.z.head<6>();
   // Dq = base + d,  v = v_n + slope d + change,  h v' = slope d + offset.
   const Velocity<Body> turn = s.h * (s.closure.base + d);
@@ -105,7 +109,7 @@ TEST(StepEquation, ResidualIsScaledByTheStepSize) {
   // (h r, Phi / h) with r = M v' + g + B^T lambda.
   const Body system(unsymmetric_top(2));
   const Sample<Body> s(system, 0.01);
-  const auto point = StepEquation<Body>::point(s.q, s.h, s.closure, s.z);
+  const auto point = StepEquation<Body>::point(StepEquation<Body>::origin(system, s.q), s.h, s.closure, s.z);
   const auto r = StepEquation<Body>::residual(system, 0.0, s.h, point, s.z);
   const Velocity<Body> acceleration = point.scaled_acceleration / s.h;
   const Multipliers<Body> lambda = s.z.tail<3>() / s.h;
@@ -135,7 +139,8 @@ double condition(double h) {
   Eigen::Matrix<double, 9, 1> z;
   z << Velocity<Body>::Zero(), Eigen::Vector3d(0, -319.5 * h, -317.3 * h);
   Eigen::Matrix<double, 9, 9> J;
-  StepEquation<Body>::jacobian(system, 0.0, h, StepEquation<Body>::point(q, h, closure, z), z,
+  const auto origin = StepEquation<Body>::origin(system, q);
+  StepEquation<Body>::jacobian(system, 0.0, h, origin, StepEquation<Body>::point(origin, h, closure, z), z,
                                closure.velocity_derivative(), closure.scaled_acceleration_derivative(), J);
   const Eigen::JacobiSVD<Eigen::Matrix<double, 9, 9>> svd(J);
   return svd.singularValues()(0) / svd.singularValues()(8);

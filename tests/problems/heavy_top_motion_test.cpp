@@ -54,5 +54,22 @@ TEST(HeavyTopMotion, AgreesWithThePublishedFastTop) {
   EXPECT_LE(std::abs(to_double(Extended(s.omega(2) - Extended("5.9010830483264570279")))), 1e-18);
 }
 
+TEST(HeavyTop, AngularMomentumAboutTheVerticalIsConstantInBothFormulations) {
+  const HeavyTopParameters p = unsymmetric_top(1);
+  const HeavyTopMotion motion(p, 0.5);
+  const auto momentum = [&](const auto& system, double t) {
+    const auto point = motion.point(system, Extended(t));
+    return to_double(system.angular_momentum(point.q, point.v));
+  };
+  const HeavyTopSO3<Extended> rotation(p);
+  const HeavyTopR3xSO3<Extended> body(p);
+  const double start = momentum(rotation, 0.0);
+  for (const double t : {0.1, 0.3, 0.5}) {
+    // Extended results, rounded to double.
+    EXPECT_NEAR(momentum(rotation, t), start, 4e-16 * std::abs(start));
+    EXPECT_NEAR(momentum(body, t), start, 4e-16 * std::abs(start));
+  }
+}
+
 }  // namespace
 }  // namespace liebench

@@ -53,6 +53,7 @@ class Oscillators {
     K.diagonal() += q.cwiseProduct(q) * T(3.0);
     return K;
   }
+  T angular_momentum(const Vector&, const Vector&) const { return T(0.0); }
   // Of the conservative part.
   T energy(const Vector& q, const Vector& v) const {
     return (v.dot(mass_ * v) + q.dot(stiffness_ * q)) * T(0.5);
@@ -94,6 +95,7 @@ class Particle {
     return Matrix::Constant(T(0.0));
   }
   T energy(const Vector&, const Vector& v) const { return v.squaredNorm() * T(0.5 * mass_); }
+  T angular_momentum(const Vector& q, const Vector& v) const { return T(mass_) * (q(0) * v(1) - q(1) * v(0)); }
   Vector initial_configuration() const { return Vector(T(1.0), T(0.0)); }
   Vector initial_velocity() const { return Vector(T(0.0), T(1.0)); }
 

@@ -27,7 +27,7 @@ TEST(HeavyTopClosedForm, GivesThePublishedStateOfTheFastTopAtTwoSeconds) {
   const auto closed_form = HeavyTopClosedForm::of(HeavyTopParameters{});
   ASSERT_TRUE(closed_form);
   const HeavyTopWitness s = closed_form->at(2);
-  // the design notes, section 8.
+  // docs/references.md and an independent computation in 60 digits.
   const std::array<std::array<const char*, 3>, 3> R{
       {{"-0.4874490822362657103411955", "-0.1504168227456417598100308", "0.8600977686647771186846381"},
        {"-0.5379397438441505933085279", "-0.7241655916368956507485544", "-0.4315148060983244312796755"},

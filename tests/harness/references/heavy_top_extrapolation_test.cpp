@@ -29,7 +29,7 @@ TEST(HeavyTopExtrapolation, GivesThePublishedStateOfTheFastTop) {
   const std::array<double, 1> times{0.5};
   const std::vector<HeavyTopWitness> states = heavy_top_by_extrapolation(HeavyTopParameters{}, times);
   ASSERT_EQ(states.size(), 1u);
-  // the design notes, section 8.
+  // docs/references.md and an independent computation in 60 digits.
   expect_printed(states[0].omega[0], "-0.47105310174524884297");
   expect_printed(states[0].omega[1], "150.00000000000000000000");
   expect_printed(states[0].omega[2], "5.9010830483264570279");

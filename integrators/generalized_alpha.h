@@ -1,0 +1,197 @@
+#pragma once
+
+#include <array>
+#include <numbers>
+#include <span>
+#include <string_view>
+
+#include "integrators/audit.h"
+#include "integrators/consistent_projection.h"
+#include "integrators/form.h"
+#include "integrators/history.h"
+#include "integrators/newton.h"
+#include "integrators/option.h"
+#include "integrators/starting_values.h"
+
+// The Lie group generalized-alpha method [Bruels & Cardona 2010; Arnold, Bruels & Cardona 2015], of order 2, with the
+// acceleration-like variable a ~ v'(t_n + (alpha_m - alpha_f) h):
+//
+//   q_{n+1} = q_n o exp(h Dq~),   Dq = v_n + (1/2 - beta) h a_n + beta h a_{n+1}
+//   v_{n+1} = v_n + (1 - gamma) h a_n + gamma h a_{n+1}
+//   (1 - alpha_m) a_{n+1} + alpha_m a_n = (1 - alpha_f) v'_{n+1} + alpha_f v'_n
+//   M v'_{n+1} = -g - B^T lambda_{n+1},   Phi(q_{n+1}) = 0
+
+namespace liebench {
+
+// The parameters of Chung & Hulbert 1993 for the spectral radius rho_inf at infinity.
+template <class T>
+struct GeneralizedAlphaParameters {
+  T alpha_m, alpha_f, beta, gamma;
+  explicit GeneralizedAlphaParameters(const T& rho)
+      : alpha_m((T(2.0) * rho - T(1.0)) / (rho + T(1.0))),
+        alpha_f(rho / (rho + T(1.0))),
+        beta(T(1.0) / ((rho + T(1.0)) * (rho + T(1.0)))),
+        gamma((T(3.0) - rho) / (T(2.0) * (rho + T(1.0)))) {}
+};
+
+struct GeneralizedAlpha {
+  static constexpr std::string_view name = "generalized_alpha";
+  static constexpr std::string_view summary =
+      "Lie group generalized-alpha method of Bruels & Cardona, order 2, with controlled numerical damping";
+  static constexpr auto option_list = std::to_array<OptionInfo>({
+      {.name = "rho_inf",
+       .kind = OptionKind::real,
+       .fallback = 0.9,
+       .least = 0.0,
+       .most = 1.0,
+       .meaning = "spectral radius at infinity: 1 no damping, 0 the strongest"},
+      {.name = "modified_start",
+       .kind = OptionKind::boolean,
+       .fallback = 0,
+       .meaning = "perturbed starting velocity, against the order reduction of lambda in the transient phase "
+                  "(index 3)"},
+      {.name = "form",
+       .kind = OptionKind::choice,
+       .fallback = 0,
+       .choices = {"index3", "stabilized_index2"},
+       .meaning = "formulation of the constrained equations"},
+  });
+
+  struct Options {
+    double rho_inf = 0.9;
+    bool modified_start = false;
+    Form form = Form::index3;
+  };
+  static Options options(const OptionValues& values) {
+    return {.rho_inf = values.real("rho_inf"),
+            .modified_start = values.boolean("modified_start"),
+            .form = form_of(values.choice("form"))};
+  }
+
+  template <MechanicalSystem S, Form form, class Audit = NoAudit>
+  class Stepper;
+
+  template <MechanicalSystem S, class Audit, class Visitor>
+  static auto with_stepper(const Options& options, const S& system, Visitor&& visit) {
+    if constexpr (S::constraints > 0)
+      if (options.form == Form::stabilized_index2)
+        return visit(Stepper<S, Form::stabilized_index2, Audit>(system, options));
+    return visit(Stepper<S, Form::index3, Audit>(system, options));
+  }
+};
+
+template <MechanicalSystem S, Form form, class Audit>
+class GeneralizedAlpha::Stepper {
+ public:
+  using System = S;
+  using T = typename S::Scalar;
+  using Group = typename S::Group;
+  static constexpr int steps = 1;
+  static constexpr int starting_points = 1;
+
+  Stepper(const S& system, const Options& options)
+      : options_(options), parameters_(T(options.rho_inf)), newton_(system) {
+    lambda_.setConstant(T(0.0));
+    for (Velocity<S>* v : {&velocity_, &acceleration_, &a_}) v->setConstant(T(0.0));
+  }
+
+  // q_0, v_0 and consistent v'_0, lambda_0; a_0 = v'_0 + (alpha_m - alpha_f) h v''_0, of second order, with h v''_0 from
+  // consistent accelerations a step before and after t_0.
+  StepResult start(const T& h, std::span<const SolutionPoint<S>> points) {
+    h_ = h;
+    t_ = points[0].t;
+    q_ = points[0].q;
+    velocity_ = points[0].v;
+    acceleration_ = points[0].acceleration;
+    lambda_ = points[0].lambda;
+    std::array<Velocity<S>, 2> around;
+    for (const int side : {0, 1}) {
+      const T s = side == 0 ? T(-h) : h;
+      const Velocity<S> step = s * velocity_ + (s * s / T(2.0)) * acceleration_;
+      const auto a =
+          consistent_acceleration(newton_.system(), T(t_ + s), Group::compose(q_, Group::exp(step)),
+                                  Velocity<S>(velocity_ + s * acceleration_));
+      if (!a) return {Outcome::singular_matrix};
+      around[std::size_t(side)] = *a;
+    }
+    const Velocity<S> scaled_jerk = (around[1] - around[0]) / T(2.0);  // h v''_0
+    const T shift = parameters_.alpha_m - parameters_.alpha_f;
+    a_ = acceleration_ + shift * scaled_jerk;
+    if constexpr (S::constraints > 0 && form == Form::index3)
+      if (options_.modified_start) return perturb_velocity(scaled_jerk, shift);
+    return {};
+  }
+
+  StepResult step() {
+    constexpr int m = Group::dimension;
+    const AffineClosure<S> closure = next_closure();
+    typename Kernel::Unknowns z = Kernel::Unknowns::Constant(T(0.0));
+    if (changes_.size() > 0) z.template head<m>() = changes_.extrapolated();
+    if constexpr (S::constraints > 0) z.template segment<S::constraints>(m) = h_ * lambda_;
+    const T t = t_ + h_;
+    typename Kernel::Point point;
+    const StepResult result = newton_.solve(t, h_, q_, closure, z, point);
+    if (result.outcome != Outcome::ok) return result;
+    if (!(to_double(Group::rotation_angle(point.step)) < std::numbers::pi))
+      return {Outcome::rotation_too_large};
+    t_ = t;
+    q_ = point.q;
+    velocity_ = point.v;
+    acceleration_ = point.scaled_acceleration / h_;
+    // d = beta h (a_{n+1} - a_n)
+    a_ += point.change / (parameters_.beta * h_);
+    changes_.push(point.change);
+    if constexpr (S::constraints > 0) lambda_ = z.template segment<S::constraints>(m) / h_;
+    return result;
+  }
+
+  const T& time() const { return t_; }
+  const Configuration<S>& configuration() const { return q_; }
+  const Velocity<S>& velocity() const { return velocity_; }
+  const Multipliers<S>& multipliers() const { return lambda_; }
+  const Audit& audit() const { return newton_.audit(); }
+
+ private:
+  using Kernel = NewtonKernel<S, form, Audit>;
+
+  // With d = Dq - v_n - h a_n / 2 = beta h (a_{n+1} - a_n):
+  //   v_{n+1} = v_n + h a_n + (gamma / beta) d
+  //   h v'_{n+1} = h (a_n - alpha_f v'_n) / (1 - alpha_f) + (1 - alpha_m) / (beta (1 - alpha_f)) d
+  AffineClosure<S> next_closure() const {
+    const auto& p = parameters_;
+    const T rest = T(1.0) - p.alpha_f;
+    return {.base = velocity_ + (h_ / T(2.0)) * a_,
+            .velocity = velocity_,
+            .velocity_slope = p.gamma / p.beta,
+            .velocity_change = h_ * a_,
+            .acceleration_slope = (T(1.0) - p.alpha_m) / (p.beta * rest),
+            .scaled_acceleration = (h_ / rest) * (a_ - p.alpha_f * acceleration_)};
+  }
+
+  // v_0 += Dv, [M B^T; B 0] [Dv; .] = [0; B l / h] with the local error of a step,
+  // l / h = (1 - 6 beta - 3 (alpha_m - alpha_f)) / 6 h^2 v''_0 + h^2 / 12 [v_0, v'_0]
+  StepResult perturb_velocity(const Velocity<S>& scaled_jerk, const T& shift) requires ConstrainedSystem<S> {
+    const T factor = (T(1.0) - T(6.0) * parameters_.beta - T(3.0) * shift) / T(6.0);
+    const Velocity<S> local_error =
+        factor * h_ * scaled_jerk + (h_ * h_ / T(12.0)) * Group::commutator(velocity_, acceleration_);
+    const Multipliers<S> b = newton_.system().constraint_gradient(q_) * local_error;
+    const auto solution = solve_saddle_point(newton_.system(), q_, Velocity<S>::Constant(T(0.0)).eval(), b);
+    if (!solution) return {Outcome::singular_matrix};
+    velocity_ += solution->x;
+    return {};
+  }
+
+  Options options_;
+  GeneralizedAlphaParameters<T> parameters_;
+  Kernel newton_;
+  T h_ = T(0.0);
+  T t_ = T(0.0);
+  Configuration<S> q_ = Group::identity();
+  Velocity<S> velocity_;             // v_n
+  Velocity<S> acceleration_;         // v'_n
+  Velocity<S> a_;                    // a_n
+  Multipliers<S> lambda_;            // lambda_n
+  History<Velocity<S>, 3> changes_;  // beta h (a_n - a_{n-1}), ...: for the prediction
+};
+
+}  // namespace liebench
