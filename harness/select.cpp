@@ -44,9 +44,11 @@ void label(std::vector<Curve>& curves) {
   }
   for (std::size_t i = 0; i < curves.size(); ++i) {
     std::string text;
-    for (const auto& [name, value] : leaves[i]) {
+    for (const auto& leaf : leaves[i]) {
+      const auto& name = leaf.first;
+      const auto& value = leaf.second;
       const bool everywhere = std::all_of(leaves.begin(), leaves.end(), [&](const auto& other) {
-        return std::any_of(other.begin(), other.end(), [&](const auto& leaf) { return leaf.first == name; });
+        return std::any_of(other.begin(), other.end(), [&](const auto& its) { return its.first == name; });
       });
       if (values[name].size() < 2 && everywhere) continue;
       if (!text.empty()) text += ", ";

@@ -34,7 +34,10 @@ void describe_method(const MethodInfo& method) {
   for (const OptionInfo& info : method.options)
     fmt::print("  {:<18} {}\n  {:<18} {}; default {}\n", info.name, info.meaning, "", allowed_values(info),
                default_text(info));
-  fmt::print("\nIn a study:\n  {{\"name\": \"{}\"", method.name);
+  fmt::print(
+      "\n"
+      "In a study:\n  {{\"name\": \"{}\"",
+      method.name);
   for (const OptionInfo& info : method.options) fmt::print(", \"{}\": {}", info.name, default_text(info));
   fmt::print("}}\n");
 }
@@ -49,7 +52,8 @@ void describe_problem(const ProblemInfo& problem) {
                info.unit.empty() ? "" : fmt::format(" [{}]", info.unit), "", info.shape,
                info.fallback.dump());
   fmt::print(
-      "\nIn a study:\n  {{\"name\": \"{}\", \"formulation\": \"{}\", \"parameters\": {{\"{}\": {}}}}}\n",
+      "\n"
+      "In a study:\n  {{\"name\": \"{}\", \"formulation\": \"{}\", \"parameters\": {{\"{}\": {}}}}}\n",
       problem.name, problem.formulations.front().name, problem.parameters.back().name,
       problem.parameters.back().fallback.dump());
 }

@@ -95,7 +95,9 @@ class Particle {
     return Matrix::Constant(T(0.0));
   }
   T energy(const Vector&, const Vector& v) const { return v.squaredNorm() * T(0.5 * mass_); }
-  T angular_momentum(const Vector& q, const Vector& v) const { return T(mass_) * (q(0) * v(1) - q(1) * v(0)); }
+  T angular_momentum(const Vector& q, const Vector& v) const {
+    return T(mass_) * (q(0) * v(1) - q(1) * v(0));
+  }
   Vector initial_configuration() const { return Vector(T(1.0), T(0.0)); }
   Vector initial_velocity() const { return Vector(T(0.0), T(1.0)); }
 
