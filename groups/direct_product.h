@@ -15,6 +15,7 @@ struct DirectProduct {
   using Element = std::pair<typename A::Element, typename B::Element>;
   template <class U>
   using rebind = DirectProduct<typename A::template rebind<U>, typename B::template rebind<U>>;
+  using Represented = DirectProduct<typename A::Represented, typename B::Represented>;
   static constexpr int a = A::dimension, b = B::dimension;
   static constexpr int dimension = a + b;
   static constexpr bool commutative = A::commutative && B::commutative;
@@ -47,6 +48,12 @@ struct DirectProduct {
     product.template leftCols<a>() = A::times_tangent(M.template leftCols<a>(), head(v));
     product.template rightCols<b>() = B::times_tangent(M.template rightCols<b>(), tail(v));
     return product;
+  }
+  static typename Represented::Element represented(const Element& q) {
+    return {A::represented(q.first), B::represented(q.second)};
+  }
+  static Element representative(const typename Represented::Element& r) {
+    return {A::representative(r.first), B::representative(r.second)};
   }
   static Stacked stacked(const Element& q) {
     Stacked s;

@@ -19,6 +19,10 @@ namespace liebench {
 //   tangent(v)           T(v) = dexp_{-v}, m x m: d exp(v~) = exp(v~) (T(v) dv)~
 //   tangent_inverse(v)   T(v)^{-1}; singular where a rotation angle is 2 pi
 //   times_tangent(A, v)  A T(v) for A with m columns, without the products that the structure of T makes trivial
+//   represented(q)       what q stands for, an element of the group Represented: rotation matrices and positions.
+//                        Elements of different groups are compared through it. Its group law need not be that
+//                        of G (rigid motions are represented in R^3 x SO(3)).
+//   representative(r)    a q with represented(q) = r
 //   stacked(q)           the representation as one vector (rotation matrices column by column), for norms
 //   cast<U>(q)           the same element in the scalar U, an element of rebind<U>
 //   rotation_angle(v)    the largest rotation angle [rad] in exp(v~); 0 where nothing rotates
@@ -28,6 +32,7 @@ namespace liebench {
 //   renormalized(q)      the element next to q that satisfies the conditions of the representation, for q within
 //                        sqrt(eps) of the group (first-order correction)
 //
+// Types: `Represented`, a Lie group over the same scalar that represents itself; of the same dimension.
 // Flags: `commutative` (every commutator vanishes: no method may compute one).
 template <class G>
 concept LieGroup = Scalar<typename G::Scalar> && std::copyable<typename G::Element> &&
@@ -45,6 +50,8 @@ concept LieGroup = Scalar<typename G::Scalar> && std::copyable<typename G::Eleme
   { G::tangent(v) } -> std::same_as<typename G::TangentMatrix>;
   { G::tangent_inverse(v) } -> std::same_as<typename G::TangentMatrix>;
   { G::times_tangent(two_rows, v) } -> std::same_as<Eigen::Matrix<typename G::Scalar, 2, G::dimension>>;
+  { G::represented(q) } -> std::same_as<typename G::Represented::Element>;
+  { G::representative(G::represented(q)) } -> std::same_as<typename G::Element>;
   { G::stacked(q) } -> std::same_as<typename G::Stacked>;
   { G::template cast<double>(q) } -> std::same_as<typename G::template rebind<double>::Element>;
   { G::rotation_angle(v) } -> std::same_as<typename G::Scalar>;

@@ -16,6 +16,7 @@ struct RealSpace {
   using Stacked = Eigen::Matrix<T, n, 1>;
   template <class U>
   using rebind = RealSpace<U, n>;
+  using Represented = RealSpace;
   static constexpr int dimension = n;
   static constexpr bool commutative = true;
 
@@ -33,6 +34,8 @@ struct RealSpace {
                                                                        const Tangent&) {
     return A;
   }
+  static Element represented(const Element& q) { return q; }
+  static Element representative(const Element& q) { return q; }
   static Stacked stacked(const Element& q) { return q; }
   template <class U>
   static typename RealSpace<U, n>::Element cast(const Element& q) {

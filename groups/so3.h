@@ -20,8 +20,10 @@ struct SO3 : RotationAlgebra<T> {
   using Stacked = Eigen::Matrix<T, 9, 1>;
   template <class U>
   using rebind = SO3<U>;
+  using Represented = SO3;
   static constexpr int dimension = 3;
   static constexpr bool commutative = false;
+  static constexpr const char* name = "SO3";
 
   static Element identity() { return Element::Identity(); }
   static Element compose(const Element& a, const Element& b) { return a * b; }
@@ -36,6 +38,14 @@ struct SO3 : RotationAlgebra<T> {
   // By the unit quaternion: accurate to a few eps for every angle up to and at pi. (acos of the trace loses
   // half of the digits near 0 and near pi.)
   static Tangent log(const Element& R) { return quaternion_log<T>(quaternion(R)); }
+
+  static Element represented(const Element& R) { return R; }
+  static Element representative(const Element& R) { return R; }
+
+  // Common to the representations of rotations: the rotation matrix R, R w and R^T w.
+  static const Element& matrix(const Element& R) { return R; }
+  static Tangent rotate(const Element& R, const Tangent& w) { return R * w; }
+  static Tangent rotate_back(const Element& R, const Tangent& w) { return R.transpose() * w; }
 
   static Stacked stacked(const Element& R) { return R.reshaped(); }
   template <class U>

@@ -4,6 +4,7 @@
 
 #include "groups/extended.h"
 #include "groups/real_space.h"
+#include "groups/s3.h"
 #include "groups/so3.h"
 #include "tests/support/lie_group_properties.h"
 
@@ -15,7 +16,11 @@ using ExtendedBody = DirectProduct<RealSpace<Extended, 3>, SO3<Extended>>;
 // A product nests: two rotations and a translation, of different dimensions.
 using TwoJoints = DirectProduct<SO3<double>, DirectProduct<RealSpace<double, 1>, SO3<double>>>;
 
-using ProductGroups = ::testing::Types<Body, ExtendedBody, TwoJoints>;
+// With two representations of each element.
+using QuaternionBody = DirectProduct<RealSpace<double, 3>, S3<double>>;
+using ExtendedQuaternionBody = DirectProduct<RealSpace<Extended, 3>, S3<Extended>>;
+
+using ProductGroups = ::testing::Types<Body, ExtendedBody, TwoJoints, QuaternionBody, ExtendedQuaternionBody>;
 INSTANTIATE_TYPED_TEST_SUITE_P(DirectProduct, LieGroupProperties, ProductGroups);
 
 namespace {

@@ -1,5 +1,6 @@
 #include "groups/rotation_coefficients.h"
 
+#include <ceres/jet.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +17,8 @@
 namespace liebench {
 namespace {
 
-// 100 digits: the closed forms lose at most 60 of them at x = 1e-30.
-using Wide = boost::multiprecision::cpp_bin_float_100;
+// The closed forms lose up to x^6, 90 digits at x = 1e-15.
+using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<150>>;
 
 Wide to_wide(double x) {
   return Wide(x);
@@ -54,16 +55,40 @@ std::vector<Coefficient<T>> coefficients() {
          const Wide half = sqrt(s) / 2;
          return (1 - half * cos(half) / sin(half)) / s;
        }},
+      {"half cosine", [](const T& s) { return T(half_angle<T>(s).cosine); },
+       [](const Wide& s) -> Wide { return cos(sqrt(s) / 2); }},
+      {"half sine", [](const T& s) { return T(half_angle<T>(s).sine); },
+       [](const Wide& s) -> Wide { return sin(sqrt(s) / 2) / sqrt(s); }},
+      {"half_sine_slope", [](const T& s) { return T(half_sine_slope<T>(s)); },
+       [](const Wide& s) -> Wide {
+         const Wide x = sqrt(s), half = x / 2;
+         return (sin(half) - half * cos(half)) / (x * s);
+       }},
+      {"versine_slope", [](const T& s) { return T(versine_slope<T>(s)); },
+       [](const Wide& s) -> Wide {
+         const Wide x = sqrt(s);
+         return (2 - 2 * cos(x) - x * sin(x)) / (s * s);
+       }},
+      {"sine_defect_slope", [](const T& s) { return T(sine_defect_slope<T>(s)); },
+       [](const Wide& s) -> Wide {
+         const Wide x = sqrt(s);
+         return (x * (2 + cos(x)) - 3 * sin(x)) / (x * s * s);
+       }},
+      {"cotangent_slope", [](const T& s) { return T(cotangent_slope<T>(s)); },
+       [](const Wide& s) -> Wide {
+         const Wide x = sqrt(s), sine = sin(x / 2);
+         return (x * sin(x) + 4 * cos(x) + s - 4) / (4 * s * s * sine * sine);
+       }},
   };
 }
 
-// x in (0, 2 pi): a coarse sweep, its small end, and every power of two steps around both thresholds.
+// x in (0, 2 pi): a coarse sweep, its small end, and powers of two steps around all thresholds.
 std::vector<double> sweep() {
   std::vector<double> all;
-  for (double x = 1e-30; x < 0.01; x *= 7.3) all.push_back(x);
-  for (int i = 1; i < 1250; ++i) all.push_back(0.005 * i);
-  for (const double threshold : {0.5, 2.0})
-    for (int exponent = -50; exponent <= -3; ++exponent)
+  for (double x = 1e-15; x < 0.01; x *= 3.3) all.push_back(x);
+  for (int i = 1; i < 625; ++i) all.push_back(0.01 * i);
+  for (const double threshold : {0.5, 1.0, 2.0, 2.5, 3.5, 4.0})
+    for (int exponent = -50; exponent <= -3; exponent += 2)
       for (const double sign : {-1.0, 1.0}) all.push_back(threshold * (1 + sign * std::ldexp(1.0, exponent)));
   return all;
 }
@@ -124,6 +149,12 @@ TEST(RotationCoefficients, AtZeroAreTheLeadingTerms) {
   EXPECT_EQ(sinc_versine(0.0).versine, 0.5);
   EXPECT_EQ(sine_defect(0.0), 1.0 / 6.0);
   EXPECT_EQ(cotangent_defect(0.0), 1.0 / 12.0);
+  EXPECT_EQ(half_angle(0.0).cosine, 1.0);
+  EXPECT_EQ(half_angle(0.0).sine, 0.5);
+  EXPECT_EQ(half_sine_slope(0.0), 1.0 / 24.0);
+  EXPECT_EQ(versine_slope(0.0), 1.0 / 12.0);
+  EXPECT_EQ(sine_defect_slope(0.0), 1.0 / 60.0);
+  EXPECT_DOUBLE_EQ(cotangent_slope(0.0), 1.0 / 360.0);
   EXPECT_EQ(atan_ratio(0.0), 1.0);
   EXPECT_TRUE(sine_defect(Extended(0.0)) == Extended(1.0) / 6.0);
   EXPECT_TRUE(cotangent_defect(Extended(0.0)) == Extended(1.0) / 12.0);
@@ -141,6 +172,32 @@ TEST(RotationCoefficients, SeriesHaveTheCoefficientsOfTheDesign) {
   EXPECT_DOUBLE_EQ(d[2], 1.0 / 30240);
   EXPECT_DOUBLE_EQ(d[3], 1.0 / 1209600);
   EXPECT_DOUBLE_EQ(d[4], 1.0 / 47900160);
+  const auto& c3 = detail::RotationSeries<double>::versine_slope;
+  EXPECT_DOUBLE_EQ(c3[1], -1.0 / 180);
+  EXPECT_DOUBLE_EQ(c3[4], 1.0 / 47900160);
+  const auto& c4 = detail::RotationSeries<double>::sine_defect_slope;
+  EXPECT_DOUBLE_EQ(c4[1], -1.0 / 1260);
+  EXPECT_DOUBLE_EQ(c4[4], 1.0 / 622702080);
+  const auto& d2 = detail::RotationSeries<double>::cotangent_slope;
+  EXPECT_DOUBLE_EQ(d2[1], 1.0 / 7560);
+  EXPECT_DOUBLE_EQ(d2[4], 691.0 / 130767436800);
+}
+
+// The slopes are derivatives, whatever their formulas: by Jets of one variable, in both tiers and beyond.
+TEST(RotationCoefficients, SlopesAreTheDerivatives) {
+  using Jet = ceres::Jet<double, 1>;
+  for (double x = 0.01; x < 6.2; x += 0.037) {
+    const Jet square = Jet(x * x, 0);
+    const auto expect = [x](double slope, const Jet& f, double sign) {
+      const double derivative = 2 * sign * f.v(0);
+      // The derivative of a closed form cancels by up to 1/x^2 > 1/4 where it is used.
+      EXPECT_NEAR(slope, derivative, 256 * 2.3e-16 * (std::abs(slope) + std::abs(f.a))) << x;
+    };
+    expect(versine_slope(x * x), sinc_versine(square).versine, -1);
+    expect(sine_defect_slope(x * x), sine_defect(square), -1);
+    expect(cotangent_slope(x * x), cotangent_defect(square), 1);
+    expect(half_sine_slope(x * x), half_angle(square).sine, -1);
+  }
 }
 
 TEST(RotationCoefficients, AtanRatioHoldsUpToItsReach) {

@@ -12,26 +12,6 @@
 
 namespace liebench {
 
-// The suite's own directions, and those where Shepperd's rule changes its pivot: equal diagonal entries.
-template <Scalar T>
-struct LieGroupExamples<SO3<T>> : DefaultLieGroupExamples<SO3<T>> {
-  static std::vector<Eigen::Matrix<T, 3, 1>> directions() {
-    std::vector<Eigen::Matrix<T, 3, 1>> all;
-    for (const double x : {-1.0, 0.0, 1.0})
-      for (const double y : {-1.0, 0.0, 1.0})
-        for (const double z : {-1.0, 0.0, 1.0})
-          if (x != 0 || y != 0 || z != 0) all.emplace_back(T(x), T(y), T(z));
-    for (const double small : {1e-3, 1e-9}) {
-      all.emplace_back(T(1.0), T(small), T(-0.7 * small));
-      all.emplace_back(T(-small), T(-1.0), T(0.3 * small));
-      all.emplace_back(T(small), T(2 * small), T(1.0));
-    }
-    all.emplace_back(T(0.3), T(-1.7), T(0.9));
-    all.emplace_back(T(-2.1), T(0.4), T(-0.2));
-    return all;
-  }
-};
-
 using RotationGroups = ::testing::Types<SO3<double>, SO3<Extended>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(SO3, LieGroupProperties, RotationGroups);
 

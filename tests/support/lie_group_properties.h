@@ -7,11 +7,11 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "groups/extended.h"
 #include "groups/lie_group.h"
+#include "tests/support/lie_group_examples.h"
 
 // Property tests of a Lie group, templated on the concept of groups/lie_group.h: the axioms, exp and log, ad,
 // the tangent operator against analysis, differences and Jets, and what keeps an element in the group. A new
@@ -21,8 +21,8 @@
 //   using Groups = ::testing::Types<SE3<double>, SE3<Extended>>;
 //   INSTANTIATE_TYPED_TEST_SUITE_P(SE3, LieGroupProperties, Groups);
 //
-// inside namespace liebench, and, where the directions below miss a delicate place of the group, with a
-// specialisation of LieGroupExamples. Scalars: double and Extended. Of the group's other scalars the suite
+// inside namespace liebench, and, where it has delicate places or several representations of an element, with a
+// specialisation of LieGroupExamples (lie_group_examples.h). Scalars: double and Extended. Of the group's other scalars the suite
 // asks for ceres::Jet<double, m> and for double.
 //
 // Tolerances are counted in eps, the unit of the group's scalar, times a scale of the data. The constants
@@ -34,42 +34,6 @@
 // Matrix(rows, cols), which for two rows of dd_real does not compile (dd_real(long) is ambiguous).
 
 namespace liebench {
-
-// What the suite asks of a group beyond the concept; a group with delicate places specialises LieGroupExamples,
-// most easily by inheriting from this and replacing one function.
-template <LieGroup G>
-struct DefaultLieGroupExamples {
-  using T = typename G::Scalar;
-  using Tangent = typename G::Tangent;
-  using Element = typename G::Element;
-
-  // Directions of tangent vectors that the suite draws from, of any positive length: the suite scales them so
-  // that the rotation angle (where nothing rotates: the length) is what a test asks for. Here both signs of
-  // each coordinate axis, and 12 random directions, the same in every run.
-  static std::vector<Tangent> directions() {
-    std::vector<Tangent> all;
-    for (int i = 0; i < G::dimension; ++i)
-      for (const double sign : {1.0, -1.0}) {
-        Tangent e = Tangent::Constant(T(0.0));
-        e(i) = T(sign);
-        all.push_back(e);
-      }
-    std::mt19937 random(20080517u);
-    for (int n = 0; n < 12; ++n) {
-      Tangent v;
-      for (int i = 0; i < G::dimension; ++i) v(i) = T(double(random()) / 2147483648.0 - 1.0);
-      all.push_back(v);
-    }
-    return all;
-  }
-
-  // The representation of q that is next to that of `near`, where an element has several (unit quaternions: p
-  // and -p). exp o log may change it.
-  static Element representation(const Element& q, const Element&) { return q; }
-};
-
-template <LieGroup G>
-struct LieGroupExamples : DefaultLieGroupExamples<G> {};
 
 // The samples and measures of the suite for the group G.
 template <LieGroup G>
@@ -105,6 +69,17 @@ struct LieGroupSamples {
   }
   // What round-off in q is relative to: entries of size 1 even where the element is close to zero.
   static double scale(const Element& q) { return 1.0 + length(G::stacked(q)); }
+
+  // All representations of q, q itself first, and the one next to `near`, which exp o log may change to another.
+  static std::vector<Element> representations(const Element& q) {
+    return LieGroupExamples<G>::representations(q);
+  }
+  static Element representation(const Element& q, const Element& near) {
+    Element next = q;
+    for (const Element& p : representations(q))
+      if (distance(p, near) < distance(next, near)) next = p;
+    return next;
+  }
 
   // Every example direction, turned into a vector of this rotation angle, or of this length where it does not
   // turn anything.
@@ -307,7 +282,7 @@ TYPED_TEST_P(LieGroupProperties, LogAtPiTurnsByPiAndGivesTheElement) {
   for (const auto& v : S::tangents(S::pi())) {
     const auto q = G::exp(v), again = G::exp(G::log(q));
     const double tolerance = 2 * S::few * S::eps() * (1 + S::length(v));
-    EXPECT_LE(S::distance(LieGroupExamples<G>::representation(again, q), q), tolerance);
+    EXPECT_LE(S::distance(S::representation(again, q), q), tolerance);
     if (G::rotation_angle(v) > 0.0) {
       EXPECT_LE(std::abs(to_double(T(G::rotation_angle(G::log(q)) - S::pi()))), tolerance);
     }
@@ -319,8 +294,7 @@ TYPED_TEST_P(LieGroupProperties, ExpUndoesLog) {
   using S = LieGroupSamples<G>;
   for (const auto& q : S::elements()) {
     // log sees the departure of q from the group, at most 50 products.
-    EXPECT_LE(S::distance(LieGroupExamples<G>::representation(G::exp(G::log(q)), q), q),
-              50 * S::few * S::eps() * S::scale(q));
+    EXPECT_LE(S::distance(S::representation(G::exp(G::log(q)), q), q), 50 * S::few * S::eps() * S::scale(q));
   }
 }
 
@@ -559,6 +533,77 @@ TYPED_TEST_P(LieGroupProperties, DerivativesAtZeroAreFiniteAndRight) {
   }
 }
 
+// --- what an element stands for ----------------------------------------------------------------------------
+
+TYPED_TEST_P(LieGroupProperties, RepresentedIsAGroupThatRepresentsItself) {
+  using G = TypeParam;
+  using R = typename G::Represented;
+  static_assert(LieGroup<R> && std::same_as<typename R::Scalar, typename G::Scalar>);
+  static_assert(std::same_as<typename R::Represented, R> && R::dimension == G::dimension);
+  using Doubles = typename G::template rebind<double>;
+  static_assert(std::same_as<typename R::template rebind<double>, typename Doubles::Represented>);
+  EXPECT_EQ(LieGroupSamples<R>::distance(G::represented(G::identity()), R::identity()), 0.0);
+}
+
+TYPED_TEST_P(LieGroupProperties, RepresentedKeepsProductsAndInverses) {
+  using G = TypeParam;
+  using S = LieGroupSamples<G>;
+  using R = LieGroupSamples<typename G::Represented>;
+  using Examples = LieGroupExamples<G>;
+  // A quaternion that is off the group by the roundings of 50 products, too, represents what is off by as much.
+  const auto all = S::elements();
+  for (std::size_t i = 0; i + 5 < all.size(); ++i) {
+    const auto &a = all[i], &b = all[i + 5];
+    const double tolerance =
+        50 * S::few * S::eps() * (R::scale(G::represented(a)) + R::scale(G::represented(b)));
+    const auto product = Examples::represented_product(G::represented(a), G::represented(b));
+    EXPECT_LE(R::distance(G::represented(G::compose(a, b)), product), tolerance);
+    const auto unit = Examples::represented_product(G::represented(a), G::represented(G::inverse(a)));
+    EXPECT_LE(R::distance(unit, G::Represented::identity()), tolerance);
+  }
+}
+
+TYPED_TEST_P(LieGroupProperties, RepresentedOfExpIsKnown) {
+  using G = TypeParam;
+  using S = LieGroupSamples<G>;
+  using R = LieGroupSamples<typename G::Represented>;
+  using T = typename G::Scalar;
+  for (const double angle : S::angles())
+    for (const auto& v : S::tangents(T(angle))) {
+      // Series cancel by the factor e^angle.
+      const double tolerance = S::few * S::eps() * std::exp(angle) * (1 + S::length(v));
+      EXPECT_LE(R::distance(G::represented(G::exp(v)), LieGroupExamples<G>::represented_exp(v)), tolerance)
+          << angle;
+    }
+}
+
+TYPED_TEST_P(LieGroupProperties, RepresentativeRepresentsWhatItIsOf) {
+  using G = TypeParam;
+  using S = LieGroupSamples<G>;
+  using R = LieGroupSamples<typename G::Represented>;
+  for (const auto& q : S::elements()) {
+    const double tolerance = 50 * S::few * S::eps() * S::scale(q);
+    const auto r = G::represented(q);
+    EXPECT_LE(R::distance(G::represented(G::representative(r)), r), tolerance);
+    EXPECT_LE(S::distance(S::representation(G::representative(r), q), q), tolerance);
+  }
+}
+
+TYPED_TEST_P(LieGroupProperties, AllRepresentationsAreOneElement) {
+  using G = TypeParam;
+  using S = LieGroupSamples<G>;
+  using R = LieGroupSamples<typename G::Represented>;
+  for (const auto& q : S::elements())
+    for (const auto& p : S::representations(q)) {
+      EXPECT_EQ(R::distance(G::represented(p), G::represented(q)), 0.0);
+      EXPECT_EQ(S::length((G::log(p) - G::log(q)).eval()), 0.0);
+      EXPECT_EQ(G::separation(q, p).norm(), 0.0);
+      // And one element beside it is as far from the one as from the other.
+      const auto beside = G::compose(q, G::exp(S::tangents(typename G::Scalar(0.01))[1]));
+      EXPECT_EQ((G::separation(p, beside) - G::separation(q, beside)).norm(), 0.0);
+    }
+}
+
 // --- distances, drift, scalars ---------------------------------------------------------------------------
 
 TYPED_TEST_P(LieGroupProperties, SeparationIsTheLogarithmOfTheQuotient) {
@@ -625,7 +670,8 @@ TYPED_TEST_P(LieGroupProperties, RenormalizedSquaresTheDefect) {
     const double defect = to_double(G::defect(rounded));
     const auto repaired = G::renormalized(rounded);
     EXPECT_LE(to_double(G::defect(repaired)), defect * defect + S::few * S::eps());
-    EXPECT_LE(S::distance(repaired, rounded), defect + S::few * S::eps() * S::scale(q));
+    // The dual part of a dual quaternion moves in proportion to its size.
+    EXPECT_LE(S::distance(repaired, rounded), (defect + S::few * S::eps()) * S::scale(q));
     largest = std::max(largest, defect);
   }
   if (largest > 0) {  // the sample was off the group, where one can be off it
@@ -657,9 +703,11 @@ REGISTER_TYPED_TEST_SUITE_P(LieGroupProperties, IdentityIsNeutral, CompositionIs
                             TangentIsTheDerivativeOfExpByDifferences, TangentIsItsSeries,
                             TangentInverseIsTheInverse, TangentLeavesItsOwnArgument,
                             TangentAtTinyVectorsHasTheLinearTermOnly, TimesTangentIsTheProductWithTheMatrix,
-                            DerivativesAtZeroAreFiniteAndRight, SeparationIsTheLogarithmOfTheQuotient,
-                            SeparationOfTinyDistancesIsRelativelyExact, SeparationOfAnElementFromItselfIsZero,
-                            DefectOfExponentialsIsRoundOff, RenormalizedSquaresTheDefect,
-                            CastKeepsTheElement);
+                            DerivativesAtZeroAreFiniteAndRight, RepresentedIsAGroupThatRepresentsItself,
+                            RepresentedKeepsProductsAndInverses, RepresentedOfExpIsKnown,
+                            RepresentativeRepresentsWhatItIsOf, AllRepresentationsAreOneElement,
+                            SeparationIsTheLogarithmOfTheQuotient, SeparationOfTinyDistancesIsRelativelyExact,
+                            SeparationOfAnElementFromItselfIsZero, DefectOfExponentialsIsRoundOff,
+                            RenormalizedSquaresTheDefect, CastKeepsTheElement);
 
 }  // namespace liebench

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "groups/rigid_motions.h"
+
+namespace liebench {
+
+// SE(3): rigid motions with rotation matrices, q = (x, R). [Bruels & Cardona 2010]
+template <Scalar T>
+struct SE3 : RigidMotions<SO3<T>> {
+  template <class U>
+  using rebind = SE3<U>;
+  static constexpr const char* name = "SE3";
+};
+
+}  // namespace liebench
