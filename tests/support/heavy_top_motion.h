@@ -50,7 +50,7 @@ class HeavyTopMotion {
     return evaluate(pieces_[piece], t - Extended(double(piece)) * width_);
   }
 
-  // The same as a point of the solution of `system`, a heavy top in either formulation and any scalar that
+  // The same as a point of the solution of `system`, a heavy top in any formulation and scalar that
   // is rounded from Extended.
   template <MechanicalSystem S>
   SolutionPoint<S> point(const S&, const Extended& t) const {
