@@ -11,7 +11,7 @@
 namespace liebench {
 
 // Rotations in space as unit quaternions p: p' = 1/2 p (0, omega) with omega the angular velocity in the body
-// frame. p and -p are one rotation; log takes the one with p0 >= 0. [Hairer, Lubich & Wanner 2006, VII.5.3]
+// frame. p and -p are one rotation; log takes the one with p0 >= 0. [Hairer, Lubich & Wanner 2006, VII.5]
 template <Scalar T>
 struct S3 : RotationAlgebra<T> {
   using Scalar = T;

@@ -4,7 +4,7 @@
 
 namespace liebench {
 
-// SE(3): rigid motions with rotation matrices, q = (x, R). [Bruels & Cardona 2010]
+// SE(3): rigid motions with rotation matrices, q = (x, R). [Bruels, Arnold & Cardona 2011]
 template <Scalar T>
 struct SE3 : RigidMotions<SO3<T>> {
   template <class U>
