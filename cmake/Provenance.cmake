@@ -16,7 +16,7 @@ function(liebench_provenance target header)
       "${PROJECT_SOURCE_DIR}/cmake/write_build_info.cmake"
     BYPRODUCTS "${source}"
     VERBATIM)
-  set_source_files_properties("${source}" PROPERTIES GENERATED TRUE)
+  set_source_files_properties("${source}" PROPERTIES GENERATED TRUE SKIP_UNITY_BUILD_INCLUSION TRUE)
   target_sources(${target} PRIVATE "${source}")
   add_dependencies(${target} ${target}_provenance)
 endfunction()

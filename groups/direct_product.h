@@ -41,6 +41,9 @@ struct DirectProduct {
   static TangentMatrix tangent_inverse(const Tangent& v) {
     return block_diagonal(A::tangent_inverse(head(v)), B::tangent_inverse(tail(v)));
   }
+  static Tangent tangent_times(const Tangent& v, const Tangent& w) {
+    return join(A::tangent_times(head(v), head(w)), B::tangent_times(tail(v), tail(w)));
+  }
   template <class Derived>
   static Eigen::Matrix<Scalar, Derived::RowsAtCompileTime, dimension> times_tangent(
       const Eigen::MatrixBase<Derived>& M, const Tangent& v) {

@@ -71,6 +71,18 @@ struct RigidMotionAlgebra {
         skew_polynomial_derivative<T>(omega, shift(v), T(0.5), T(0.0), d, cotangent_slope<T>(x_squared)));
   }
 
+  // (F a + D alpha, F alpha) for w = (a, alpha), by vector products
+  static Tangent tangent_times(const Tangent& v, const Tangent& w) {
+    const Vector U = shift(v), omega = turn(v);
+    const T x_squared = omega.squaredNorm(), rate = omega.dot(U);
+    const T minus_b = -sinc_versine<T>(x_squared).versine, c = sine_defect<T>(x_squared);
+    const Vector a_once = omega.cross(shift(w)), once = omega.cross(turn(w)), across = U.cross(turn(w));
+    const Vector twice = omega.cross(once);
+    return join(shift(w) + minus_b * (a_once + across) + c * (omega.cross(a_once + across) + U.cross(once)) +
+                    rate * (versine_slope<T>(x_squared) * once - sine_defect_slope<T>(x_squared) * twice),
+                turn(w) + minus_b * once + c * twice);
+  }
+
   // [A1 F, A1 D + A2 F] for A = [A1, A2]
   template <class Derived>
   static Eigen::Matrix<T, Derived::RowsAtCompileTime, 6> times_tangent(const Eigen::MatrixBase<Derived>& A,

@@ -53,6 +53,12 @@ struct RotationAlgebra {
     return skew_polynomial<T>(v, T(0.5), cotangent_defect<T>(v.squaredNorm()));
   }
 
+  static Tangent tangent_times(const Tangent& v, const Tangent& w) {
+    const T x_squared = v.squaredNorm();
+    const Tangent once = v.cross(w);
+    return w - sinc_versine<T>(x_squared).versine * once + sine_defect<T>(x_squared) * v.cross(once);
+  }
+
   template <class Derived>
   static Eigen::Matrix<T, Derived::RowsAtCompileTime, 3> times_tangent(const Eigen::MatrixBase<Derived>& A,
                                                                        const Tangent& v) {

@@ -125,16 +125,26 @@ struct SincVersine {
   T sinc, versine;
 };
 
+namespace detail {
+
+// Out of line, so that the short series of small steps is inlined where it is used.
+template <class T>
+[[gnu::noinline]] SincVersine<T> large_sinc_versine(const T& x_squared) {
+  using std::sin, std::sqrt;
+  const T x = sqrt(x_squared);
+  const T half = sin(x * 0.5) / x;
+  return {sin(x) / x, half * half * 2.0};
+}
+
+}  // namespace detail
+
 template <class T>
 SincVersine<T> sinc_versine(const T& x_squared) {
-  using std::sin, std::sqrt;
   using Series = detail::RotationSeries<T>;
   if (x_squared < detail::short_reach)
     return {detail::horner<detail::short_terms<T>>(Series::sine, x_squared),
             detail::horner<detail::short_terms<T>>(Series::versine, x_squared)};
-  const T x = sqrt(x_squared);
-  const T half = sin(x * 0.5) / x;
-  return {sin(x) / x, half * half * 2.0};
+  return detail::large_sinc_versine(x_squared);
 }
 
 // c = (x - sin x) / x^3 for x^2 = x_squared >= 0.

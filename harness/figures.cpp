@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <numbers>
 
+#include "harness/correction_stability.h"
+#include "harness/formulations.h"
 #include "harness/select.h"
 
 namespace liebench {
@@ -14,7 +18,8 @@ namespace {
 using Filter = std::function<bool(const Json& record)>;
 
 bool has_option(const Json& record, const char* name, const Json& value) {
-  return record.at("options").at(name) == value;
+  const auto option = record.at("options").find(name);
+  return option != record.at("options").end() && *option == value;
 }
 
 // One curve in extended and in double precision: the second shows where round-off takes over.
@@ -41,6 +46,15 @@ void add_curves(Panel& panel, const std::vector<Json>& records, const Filter& fi
 }
 
 constexpr const char* step_label = "step size h in s";
+constexpr double largest_angle = std::numbers::pi;  // of a step
+
+// |Omega(t_0)| of a study of one heavy top, rad/s.
+double initial_speed(const std::vector<Json>& records) {
+  double squared = 0.0;
+  for (const Json& component : records.front().at("parameters").at("angular_velocity"))
+    squared += component.get<double>() * component.get<double>();
+  return std::sqrt(squared);
+}
 
 Panel orders_panel(const std::vector<Json>& records, std::string title, std::string y_label, bool correction,
                    const Quantity& quantity, const std::vector<int>& orders, const std::string& formulation) {
@@ -131,7 +145,7 @@ Figure generalized_alpha_figure(const std::vector<Json>& records) {
   const auto filter = [](const char* form, bool modified) {
     return [form, modified](const Json& r) {
       return r.at("formulation") == "R3xSO3" && has_option(r, "form", form) &&
-             has_option(r, "modified_start", modified);
+             modified == has_option(r, "modified_start", true);
     };
   };
   return transient_figure(records, "Generalized-α, ρ_∞ = 0.9 (constrained heavy top, R^3×SO(3))", 2,
@@ -160,6 +174,96 @@ Figure stabilized_figure(const std::vector<Json>& records) {
   return figure;
 }
 
+Figure faltinsen_figure(const std::vector<Json>& records) {
+  const auto filter = [](const char* variant, const char* form, bool modified) {
+    return [=](const Json& r) {
+      return has_option(r, "variant", variant) && has_option(r, "form", form) &&
+             modified == has_option(r, "modified_start", true);
+    };
+  };
+  return transient_figure(
+      records, "Faltinsen BDF, k = 2 (constrained heavy top, R^3×SO(3))", 2,
+      {{"index 3", filter("exact", "index3", false), 0, true},
+       {"index 3, modified starting velocities", filter("exact", "index3", true), 2, false},
+       {"the same, variant bch", filter("bch", "index3", true), 3, false},
+       {"stabilized index 2", filter("exact", "stabilized_index2", false), 1, false}});
+}
+
+// Errors against h |Omega|, with the predicted bounds of the correction term.
+Figure correction_stability_figure(const std::vector<Json>& records) {
+  Figure figure{
+      .title = "The correction term in the index-3 form: predicted bounds and blow-up (R^3×SO(3), 2 s)",
+      .rows = 2,
+      .columns = 2,
+      .panels = {}};
+  for (int k = 3; k <= 6; ++k) {
+    Panel panel{.title = fmt::format("k = {}", k),
+                .x_label = "h |Ω|",
+                .y_label = "largest error of v in m/s, rad/s",
+                .y_range = Range{1e-9, 1e6}};
+    for (const bool implicit : {false, true}) {
+      const Json value = implicit ? Json("implicit") : Json(true);
+      const int style = implicit ? 1 : 3;
+      const char* label = implicit ? "L_k implicit" : "L_k explicit";
+      add_curves(
+          panel, records,
+          [&](const Json& r) { return has_option(r, "k", k) && has_option(r, "correction", value); },
+          {"v", "max_absolute"}, label, style);
+      const double bound = correction_stability_bound(k, implicit, largest_angle);
+      if (bound < largest_angle)
+        panel.lines.push_back(
+            {bound, fmt::format("bound {:.3g}, {}", bound, implicit ? "implicit" : "explicit"), style});
+    }
+    for (Series& series : panel.series) {
+      for (Point& point : series.points) point.x *= initial_speed(records);
+      for (Point& point : series.failures) point.x *= initial_speed(records);
+      series.label = series.label.substr(0, series.label.find(", double"));
+      series.secondary = false;
+    }
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+// Above: error at equal step; below: at equal cost. Unconstrained, index 3, stabilized index 2.
+Figure formulations_figure(const std::vector<Json>& records) {
+  Figure figure{
+      .title = "BLieDF2nd, k = 3, in all formulations of the heavy top (double precision, own start)",
+      .rows = 2,
+      .columns = 3,
+      .panels = {}};
+  const std::vector<std::pair<const char*, const char*>> forms{
+      {"", "unconstrained"}, {"index3", "index 3"}, {"stabilized_index2", "stabilized index 2"}};
+  const std::vector<const char*> formulations{"SO3", "S3", "R3xSO3", "R3xS3", "SE3", "S3|xR3", "UDQ"};
+  for (const bool cost : {false, true})
+    for (const auto& [form, title] : forms) {
+      Panel panel{.title = cost ? "" : title,
+                  .x_label = cost ? "floating point operations of the run" : step_label,
+                  .y_label = "largest error of q in m, rad"};
+      for (std::size_t i = 0; i < formulations.size(); ++i) {
+        // Those with rotation matrices lie beneath: with quaternions the curves are the same.
+        const bool matrices = formulations[i] == std::string_view("SO3") ||
+                              formulations[i] == std::string_view("R3xSO3") ||
+                              formulations[i] == std::string_view("SE3");
+        Series series{.label = plain_text(formulations[i]), .style = int(i), .broad = matrices};
+        for (const Json& record : records) {
+          if (record.at("integrator") != "bliedf2nd" || !has_option(record, "k", 3) ||
+              record.at("formulation") != formulations[i] || record.at("options").value("form", "") != form)
+            continue;
+          const double x = cost ? operations_of_run(record) : record.at("step_size").get<double>();
+          if (const auto error = error_of(record, {"q", "max_absolute"}))
+            series.points.push_back({x, *error});
+          else
+            series.failures.push_back({x, 0.0});
+        }
+        if (!series.points.empty() || !series.failures.empty()) panel.series.push_back(std::move(series));
+      }
+      if (!cost) panel.orders.push_back({.order = 3});
+      figure.panels.push_back(std::move(panel));
+    }
+  return figure;
+}
+
 Figure two_columns(const std::vector<Json>& records, const std::string& title, const std::string& formulation,
                    const std::vector<std::pair<Quantity, std::string>>& rows, int offset) {
   Figure figure{.title = title, .rows = int(rows.size()), .columns = 2, .panels = {}};
@@ -184,7 +288,11 @@ const std::vector<PaperFigure>& paper_figures() {
       {"figure4", {"figure4.json"}},
       {"first_steps", {"first_steps.json"}},
       {"generalized_alpha", {"generalized_alpha.json", "generalized_alpha_so3.json"}},
-      {"stabilized_index2", {"stabilized_index2.json"}}};
+      {"stabilized_index2", {"stabilized_index2.json"}},
+      {"faltinsen_bdf", {"faltinsen_bdf.json"}},
+      {"correction_stability", {"correction_stability.json"}},
+      {"formulations", {"formulations.json"}},
+      {"verification", {"verification.json", "verification_own_start.json"}}};
   return list;
 }
 
@@ -195,6 +303,11 @@ std::map<std::string, Figure> draw_paper_figure(const PaperFigure& figure, const
             {"figure1_k4", modified_start_figure(records, 4)}};
   if (figure.name == "first_steps") return {{"first_steps", first_steps_figure(records)}};
   if (figure.name == "generalized_alpha") return {{"generalized_alpha", generalized_alpha_figure(records)}};
+  if (figure.name == "verification") return {};
+  if (figure.name == "faltinsen_bdf") return {{"faltinsen_bdf", faltinsen_figure(records)}};
+  if (figure.name == "correction_stability")
+    return {{"correction_stability", correction_stability_figure(records)}};
+  if (figure.name == "formulations") return {{"formulations", formulations_figure(records)}};
   if (figure.name == "stabilized_index2") return {{"stabilized_index2", stabilized_figure(records)}};
   if (figure.name == "figure2")
     return {{"figure2",

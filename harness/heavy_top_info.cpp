@@ -105,18 +105,47 @@ std::string obstacle(const Json& parameters, double duration) {
       duration, most_radians / rate);
 }
 
+struct Formulation {
+  FormulationInfo info;
+  RunResult (*in_double)(const RunRequest&, const HeavyTopReference&);
+  RunResult (*extended)(const RunRequest&, const HeavyTopReference&);
+};
+
+template <template <class> class System>
+Formulation formulation(std::string_view summary) {
+  return {{System<double>::formulation, System<double>::constraints, summary},
+          run_heavy_top<System, double>,
+          run_heavy_top<System, Extended>};
+}
+
+// Every formulation: the explicit list.
+const std::vector<Formulation>& formulations() {
+  static const std::vector<Formulation> list{
+      formulation<HeavyTopSO3>("rotation matrix about the tip, unconstrained, eq. (57)"),
+      formulation<HeavyTopS3>("unit quaternion about the tip, unconstrained"),
+      formulation<HeavyTopR3xSO3>(
+          "position and rotation matrix, inertial velocity, 3 constraints at the tip, eq. (58)"),
+      formulation<HeavyTopR3xS3>("position and unit quaternion, inertial velocity, 3 constraints"),
+      formulation<HeavyTopSE3>("rigid motions with rotation matrix, body-fixed velocity, 3 constraints"),
+      formulation<HeavyTopS3R3>("rigid motions with unit quaternion, body-fixed velocity, 3 constraints"),
+      formulation<HeavyTopUDQ>("unit dual quaternions, body-fixed velocity, 3 constraints")};
+  return list;
+}
+
+std::vector<FormulationInfo> formulation_infos() {
+  std::vector<FormulationInfo> infos;
+  for (const Formulation& entry : formulations()) infos.push_back(entry.info);
+  return infos;
+}
+
 class HeavyTop final : public PreparedProblem {
  public:
   explicit HeavyTop(HeavyTopReference reference) : reference_(std::move(reference)) {}
 
   RunResult run(std::string_view formulation, Precision precision, const RunRequest& request) const override {
-    const bool extended = precision == Precision::extended;
-    if (formulation == "SO3")
-      return extended ? run_heavy_top<HeavyTopSO3, Extended>(request, reference_)
-                      : run_heavy_top<HeavyTopSO3, double>(request, reference_);
-    if (formulation == "R3xSO3")
-      return extended ? run_heavy_top<HeavyTopR3xSO3, Extended>(request, reference_)
-                      : run_heavy_top<HeavyTopR3xSO3, double>(request, reference_);
+    for (const Formulation& entry : formulations())
+      if (entry.info.name == formulation)
+        return (precision == Precision::extended ? entry.extended : entry.in_double)(request, reference_);
     throw std::logic_error(fmt::format("heavy_top has no formulation \"{}\"", formulation));
   }
   std::string reference_method() const override { return reference_.method(); }
@@ -133,8 +162,7 @@ ProblemInfo heavy_top_info() {
   return {.name = "heavy_top",
           .summary =
               "rigid body with its tip fixed in uniform gravity (Bruels & Cardona 2010; eqs. (57) and (58))",
-          .formulations = {{"SO3", 0, "rotation about the tip, unconstrained, eq. (57)"},
-                           {"R3xSO3", 3, "free body held at its tip by 3 constraints, index 3, eq. (58)"}},
+          .formulations = formulation_infos(),
           .parameters = {{"mass", "kg", "positive number", defaults["mass"], "m"},
                          {"inertia", "kg m^2",
                           "3 principal moments, or a symmetric positive definite 3 x 3 matrix",

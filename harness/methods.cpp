@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "integrators/list.h"
 
 namespace liebench {
@@ -37,20 +39,55 @@ OptionValue option_value(const OptionInfo& info, const JsonView& view) {
       return view.boolean();
     case OptionKind::choice:
       return view.word(words(info), info.name);
+    case OptionKind::boolean_or_choice: {
+      if (view.value().is_boolean()) return view.value().get<bool>();
+      const std::vector<std::string> allowed = words(info);
+      if (view.value().is_string() &&
+          std::find(allowed.begin(), allowed.end(), view.value()) != allowed.end())
+        return view.value().get<std::string>();
+      view.reject(allowed_values(info),
+                  view.value().is_string() ? suggestion(view.value().get<std::string>(), allowed) : "");
+    }
   }
   return {};
 }
 
-OptionValue option_default(const OptionInfo& info) {
+OptionValue option_default(const OptionInfo& info, bool self_start) {
+  const double fallback = self_start ? info.self_start_fallback.value_or(info.fallback) : info.fallback;
   switch (info.kind) {
     case OptionKind::integer:
-      return int(info.fallback);
+      return int(fallback);
     case OptionKind::real:
-      return info.fallback;
+      return fallback;
     case OptionKind::boolean:
-      return info.fallback != 0.0;
+    case OptionKind::boolean_or_choice:
+      return fallback != 0.0;
     case OptionKind::choice:
-      return std::string(info.choices[std::size_t(info.fallback)]);
+      return std::string(info.choices[std::size_t(fallback)]);
+  }
+  return {};
+}
+
+bool applies(const OptionInfo& info, bool constrained, const OptionValues& values) {
+  switch (info.scope) {
+    case OptionScope::everywhere:
+      return true;
+    case OptionScope::constrained:
+      return constrained;
+    case OptionScope::index3:
+      return constrained && values.choice_or("form", "index3") == "index3";
+  }
+  return true;
+}
+
+std::string scope_text(const OptionInfo& info) {
+  switch (info.scope) {
+    case OptionScope::everywhere:
+      return "any problem";
+    case OptionScope::constrained:
+      return "a formulation with constraints";
+    case OptionScope::index3:
+      return "a formulation with constraints and \"form\": \"index3\"";
   }
   return {};
 }
@@ -65,6 +102,8 @@ std::string allowed_values(const OptionInfo& info) {
       return "true or false";
     case OptionKind::choice:
       return quoted_list(words(info));
+    case OptionKind::boolean_or_choice:
+      return "true, false or " + quoted_list(words(info));
   }
   return {};
 }
@@ -72,8 +111,8 @@ std::string allowed_values(const OptionInfo& info) {
 Json options_to_json(const MethodInfo& method, const OptionValues& values) {
   Json j = Json::object();
   for (const OptionInfo& info : method.options)
-    std::visit([&](const auto& value) { j[std::string(info.name)] = value; },
-               values.all().find(info.name)->second);
+    if (const auto place = values.all().find(info.name); place != values.all().end())
+      std::visit([&](const auto& value) { j[std::string(info.name)] = value; }, place->second);
   return j;
 }
 

@@ -23,12 +23,18 @@ const std::vector<MethodInfo>& methods();
 
 // The checked value of one option. Throws InputError.
 OptionValue option_value(const OptionInfo& info, const JsonView& view);
-OptionValue option_default(const OptionInfo& info);
+OptionValue option_default(const OptionInfo& info, bool self_start = false);
+
+// Whether an option means something: for a problem without constraints, for the form among `values`.
+bool applies(const OptionInfo& info, bool constrained, const OptionValues& values);
+
+// What a problem or an option must be for this one to mean something: `"form": "index3" and constraints`.
+std::string scope_text(const OptionInfo& info);
 
 // What an option takes: `an integer from 1 to 4`, `true or false`.
 std::string allowed_values(const OptionInfo& info);
 
-// All options in the order of the method's list.
+// All options that are there, in the order of the method's list.
 Json options_to_json(const MethodInfo& method, const OptionValues& values);
 
 }  // namespace liebench

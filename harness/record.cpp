@@ -48,7 +48,7 @@ Json make_record(const RunSpec& run, const RunResult& result, const PreparedProb
   j["parameters"] = run.parameters;
   j["integrator"] = run.method->name;
   j["options"] = options_to_json(*run.method, run.request.options);
-  j["start"] = run.start;
+  j["start"] = name(run.request.start);
   j["precision"] = name(run.precision);
   j["step_size"] = run.step_size();
   j["requested_step_size"] = run.requested_step_size;
@@ -79,8 +79,7 @@ Json make_record(const RunSpec& run, const RunResult& result, const PreparedProb
   cost["jacobians"] = result.audit.jacobians;
   cost["factorizations"] = result.audit.factorizations;
   cost["solves"] = result.audit.solves;
-  // Each iteration of the kernel is one back-substitution.
-  cost["newton_iterations"] = result.audit.solves;
+  cost["newton_iterations"] = result.audit.iterations;
   j["provenance"] = provenance;
   return j;
 }

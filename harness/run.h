@@ -16,9 +16,16 @@ namespace liebench {
 
 enum class Precision { double_precision, extended };
 
+// Where the starting values come from.
+enum class Start {
+  reference,  // the reference solution, eq. (21)
+  self        // initial values alone: integrators/self_start.h
+};
+
 struct RunRequest {
   std::string integrator;
   OptionValues options;
+  Start start = Start::self;
   Extended step_size;       // h, s
   std::uint64_t steps = 0;  // N: the run covers t_0, ..., t_0 + N h, starting values included
 };

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string_view>
 
 #include "harness/run.h"
 #include "integrators/list.h"
+#include "integrators/self_start.h"
 #include "integrators/starting_values.h"
 
 // The inside of the seam: everything from here down is a template on system and scalar.
@@ -66,25 +68,29 @@ class Monitor {
     initial_energy_ = to_double(system.energy(system.initial_configuration(), system.initial_velocity()));
   }
 
-  template <class Stepper>
-  void observe(std::uint64_t n, const Stepper& stepper, const SolutionPoint<Exact>& exact) {
-    const auto q = S::Group::template cast<Extended>(stepper.configuration());
-    const auto v = stepper.velocity().template cast<Extended>().eval();
-    q_.end_absolute = max_norm(Exact::Group::separation(q, exact.q));
+  // The state at t_n. q is compared through the rotation and the position that it stands for.
+  [[gnu::noinline]] void observe(std::uint64_t n, const Configuration<S>& configuration,
+                                 const Velocity<S>& velocity, const Multipliers<S>& multipliers,
+                                 const SolutionPoint<Exact>& exact) {
+    using Represented = typename Exact::Group::Represented;
+    const auto q = Exact::Group::represented(S::Group::template cast<Extended>(configuration));
+    const auto exact_q = Exact::Group::represented(exact.q);
+    const auto v = velocity.template cast<Extended>().eval();
+    q_.end_absolute = max_norm(Represented::separation(q, exact_q));
     v_.end_absolute = max_norm((v - exact.v).eval());
     q_.max_absolute = std::max(q_.max_absolute, q_.end_absolute);
     v_.max_absolute = std::max(v_.max_absolute, v_.end_absolute);
     if constexpr (S::constraints > 0) {
-      const auto lambda = stepper.multipliers().template cast<Extended>().eval();
+      const auto lambda = multipliers.template cast<Extended>().eval();
       lambda_.end_absolute = max_norm((lambda - exact.lambda).eval());
       lambda_.max_absolute = std::max(lambda_.max_absolute, lambda_.end_absolute);
       if (n == steps_) lambda_.end_relative = relative_distance(lambda, exact.lambda);
     }
     if (n == steps_) {
-      q_.end_relative = relative_distance(Exact::Group::stacked(q), Exact::Group::stacked(exact.q));
+      q_.end_relative = relative_distance(Represented::stacked(q), Represented::stacked(exact_q));
       v_.end_relative = relative_distance(v, exact.v);
     }
-    if (n % stride_ == 0 || n == steps_) observe_drift(stepper);
+    if (n % stride_ == 0 || n == steps_) observe_drift(configuration, velocity);
   }
 
   void report(RunResult& result) const {
@@ -95,10 +101,7 @@ class Monitor {
   }
 
  private:
-  template <class Stepper>
-  void observe_drift(const Stepper& stepper) {
-    const auto& q = stepper.configuration();
-    const auto& v = stepper.velocity();
+  void observe_drift(const Configuration<S>& q, const Velocity<S>& v) {
     drift_.energy = std::max(drift_.energy, std::abs(to_double(system_.energy(q, v)) - initial_energy_));
     drift_.angular_momentum =
         std::max(drift_.angular_momentum,
@@ -157,19 +160,35 @@ RunResult follow(Stepper stepper, const typename Stepper::System& system, const 
     return result;
   };
 
-  std::array<SolutionPoint<S>, std::size_t(Stepper::starting_points)> points;
-  for (std::size_t j = 0; j < points.size(); ++j) points[j] = rounded<S>(exact(time(j)));
   T h;
   if constexpr (std::is_same_v<T, double>)
     h = to_double(request.step_size);
   else
     h = request.step_size;
+  std::array<SolutionPoint<S>, std::size_t(most_starting_points)> room;
+  const auto points = std::span(room).first(std::size_t(stepper.starting_points()));
+  const auto first = std::uint64_t(stepper.steps());
+  if (request.start == Start::self) {
+    const StepResult own = self_start(system, T(0.0), h, points, stepper.audit());
+    if (own.outcome != Outcome::ok) return fail(own, first - 1);
+  } else {
+    for (std::size_t j = 0; j < points.size(); ++j) points[j] = rounded<S>(exact(time(j)));
+  }
   if (const StepResult start = stepper.start(h, points); start.outcome != Outcome::ok)
-    return fail(start, Stepper::steps - 1);
+    return fail(start, first - 1);
   Monitor<S> monitor(system, request.steps);
-  for (std::uint64_t n = Stepper::steps; n <= request.steps; ++n) {
+  const auto observe = [&](std::uint64_t n) {
+    monitor.observe(n, stepper.configuration(), stepper.velocity(), stepper.multipliers(), exact(time(n)));
+  };
+  if (request.start == Start::self) {
+    // What the method's own start has computed are errors of the run; of the last point as the method goes on from it.
+    for (std::uint64_t n = 1; n + 1 < first; ++n)
+      monitor.observe(n, points[n].q, points[n].v, points[n].lambda, exact(time(n)));
+    if (first > 1) observe(first - 1);
+  }
+  for (std::uint64_t n = first; n <= request.steps; ++n) {
     if (const StepResult step = stepper.step(); step.outcome != Outcome::ok) return fail(step, n);
-    monitor.observe(n, stepper, exact(time(n)));
+    observe(n);
   }
   monitor.report(result);
   result.audit = stepper.audit();

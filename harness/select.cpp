@@ -35,27 +35,42 @@ bool speaks_for_itself(const std::string& name) {
   return name == "problem" || name == "formulation" || name == "integrator" || name == "precision";
 }
 
+using Leaves = std::vector<std::pair<std::string, std::string>>;
+
+// The label of a curve from those of its leaves that `shown` chooses.
+template <class Shown>
+std::string label_of(const Curve& curve, const Leaves& leaves, const Shown& shown) {
+  std::string text;
+  for (const auto& [name, value] : leaves) {
+    if (!shown(name)) continue;
+    if (!text.empty()) text += ", ";
+    text += speaks_for_itself(name) ? value : name + " = " + value;
+  }
+  return text.empty() ? curve.identity.at("integrator").get<std::string>() : text;
+}
+
+// What has several values among the curves; and, where that does not tell them all apart, what some of them have and others
+// have not.
 void label(std::vector<Curve>& curves) {
   std::map<std::string, std::set<std::string>> values;
-  std::vector<std::vector<std::pair<std::string, std::string>>> leaves(curves.size());
+  std::map<std::string, std::size_t> holders;
+  std::vector<Leaves> leaves(curves.size());
   for (std::size_t i = 0; i < curves.size(); ++i) {
     flatten("", curves[i].identity, leaves[i]);
     for (const auto& [name, text] : leaves[i]) values[name].insert(text);
+    for (const auto& leaf : leaves[i]) ++holders[leaf.first];
   }
+  const auto differs = [&](const std::string& name) { return values[name].size() > 1; };
+  std::set<std::string> labels;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    std::string text;
-    for (const auto& leaf : leaves[i]) {
-      const auto& name = leaf.first;
-      const auto& value = leaf.second;
-      const bool everywhere = std::all_of(leaves.begin(), leaves.end(), [&](const auto& other) {
-        return std::any_of(other.begin(), other.end(), [&](const auto& its) { return its.first == name; });
-      });
-      if (values[name].size() < 2 && everywhere) continue;
-      if (!text.empty()) text += ", ";
-      text += speaks_for_itself(name) ? value : name + " = " + value;
-    }
-    curves[i].label = text.empty() ? curves[i].identity["integrator"].get<std::string>() : text;
+    curves[i].label = label_of(curves[i], leaves[i], differs);
+    labels.insert(curves[i].label);
   }
+  if (labels.size() == curves.size()) return;
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    curves[i].label = label_of(curves[i], leaves[i], [&](const std::string& name) {
+      return differs(name) || holders[name] < curves.size();
+    });
 }
 
 }  // namespace

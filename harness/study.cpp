@@ -26,7 +26,7 @@ struct ProblemChoice {
 struct MethodChoice {
   const MethodInfo* method;
   OptionValues options;
-  std::string pointer;
+  JsonView entry;
 };
 
 struct Interval {
@@ -115,7 +115,7 @@ std::vector<ProblemChoice> read_problems(const JsonView& list) {
   return choices;
 }
 
-std::vector<MethodChoice> read_methods(const JsonView& list) {
+std::vector<MethodChoice> read_methods(const JsonView& list, Start start) {
   list.require_array();
   std::vector<MethodChoice> choices;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -131,7 +131,7 @@ std::vector<MethodChoice> read_methods(const JsonView& list) {
       std::vector<OptionValue> values;
       for (const JsonView& view : alternatives(entry, std::string(info.name)))
         values.push_back(option_value(info, view));
-      if (values.empty()) values.push_back(option_default(info));
+      if (values.empty()) values.push_back(option_default(info, start == Start::self));
       std::vector<OptionValues> next;
       for (const OptionValues& options : expanded)
         for (const OptionValue& value : values) {
@@ -140,9 +140,37 @@ std::vector<MethodChoice> read_methods(const JsonView& list) {
         }
       expanded = std::move(next);
     }
-    for (OptionValues& options : expanded) choices.push_back({&method, std::move(options), entry.pointer()});
+    for (OptionValues& options : expanded) choices.push_back({&method, std::move(options), entry});
   }
   return choices;
+}
+
+// Options without those that mean nothing for this formulation.
+OptionValues applicable_options(const MethodInfo& method, OptionValues options,
+                                const FormulationInfo& formulation) {
+  for (const OptionInfo& info : method.options)
+    if (!applies(info, formulation.constraints > 0, options)) options.erase(info.name);
+  return options;
+}
+
+// An option that the study gives must mean something in one of its runs at least.
+void require_scopes(const std::vector<ProblemChoice>& problems, const std::vector<MethodChoice>& methods) {
+  for (const MethodChoice& choice : methods)
+    for (const OptionInfo& info : choice.method->options) {
+      const std::string key(info.name);
+      if (info.scope == OptionScope::everywhere || !choice.entry.has(key)) continue;
+      const bool somewhere = std::any_of(problems.begin(), problems.end(), [&](const ProblemChoice& problem) {
+        return std::any_of(methods.begin(), methods.end(), [&](const MethodChoice& other) {
+          return other.entry.pointer() == choice.entry.pointer() &&
+                 applies(info, problem.formulation->constraints > 0, other.options);
+        });
+      });
+      if (!somewhere)
+        throw InputError(
+            choice.entry[key].pointer(),
+            fmt::format("\"{}\" has no effect in any run of this entry: it needs {}; leave it out", key,
+                        scope_text(info)));
+    }
 }
 
 double positive_step(const JsonView& view) {
@@ -229,6 +257,10 @@ void set_grid(RunSpec& run, const Interval& interval, const StepSize& size, cons
 
 }  // namespace
 
+std::string_view name(Start start) {
+  return start == Start::reference ? "reference" : "self";
+}
+
 std::string_view name(Precision precision) {
   return precision == Precision::extended ? "extended" : "double";
 }
@@ -245,7 +277,7 @@ Json RunSpec::canonical_input() const {
   j["parameters"] = parameters;
   j["integrator"] = method->name;
   j["options"] = options_to_json(*method, request.options);
-  j["start"] = start;
+  j["start"] = name(request.start);
   j["precision"] = name(precision);
   j["t_0"] = t_0;
   j["steps"] = request.steps;
@@ -272,10 +304,13 @@ Study read_study(const Json& json) {
   study.name = root["name"].text();
   if (study.name.empty()) root["name"].reject("a name that is not empty");
   const auto problem_choices = read_problems(root["problems"]);
-  const auto method_choices = read_methods(root["integrators"]);
+  const Start start = root.has("start") && root["start"].word({"self", "reference"}, "start") == "reference"
+                          ? Start::reference
+                          : Start::self;
+  const auto method_choices = read_methods(root["integrators"], start);
+  require_scopes(problem_choices, method_choices);
   const auto sizes = read_step_sizes(root["step_sizes"]);
   const Interval interval = read_interval(root);
-  const std::string start = root.has("start") ? root["start"].word({"reference"}, "start") : "reference";
   std::vector<Precision> precisions;
   for (const JsonView& view : alternatives(root, "precision"))
     precisions.push_back(view.word({"double", "extended"}, "precision") == "extended"
@@ -295,9 +330,9 @@ Study read_study(const Json& json) {
           run.parameters = problem.parameters;
           run.method = method.method;
           run.request.integrator = std::string(method.method->name);
-          run.request.options = method.options;
+          run.request.options = applicable_options(*method.method, method.options, *problem.formulation);
+          run.request.start = start;
           run.precision = precision;
-          run.start = start;
           set_grid(run, interval, size, method);
           const std::string obstacle = run.problem->obstacle(run.parameters, run.duration());
           if (!obstacle.empty()) throw InputError(run.local_steps > 0 ? size.pointer : "/t_end", obstacle);

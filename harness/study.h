@@ -23,7 +23,6 @@ struct RunSpec {
   const MethodInfo* method = nullptr;
   RunRequest request;
   Precision precision = Precision::double_precision;
-  std::string start;                 // "reference"
   double requested_step_size = 0.0;  // as the study has it, s
   double t_0 = 0.0;                  // s
   double t_end = 0.0;                // s
@@ -45,11 +44,12 @@ struct Study {
 inline constexpr double most_steps = 1e9;
 
 // Version of the numerical code: part of every key, raised whenever a change alters results.
-inline constexpr int numerical_version = 1;
+inline constexpr int numerical_version = 2;
 
 // Throws InputError with the JSON pointer of the first thing that is wrong.
 Study read_study(const Json& study);
 
 std::string_view name(Precision precision);
+std::string_view name(Start start);
 
 }  // namespace liebench

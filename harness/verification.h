@@ -12,6 +12,8 @@ namespace liebench {
 
 struct Verification {
   std::string markdown;
+  std::string
+      csv;  // of the order matrix: every curve and error with its window; empty where its studies are missing
   int claims = 0;
   int confirmed = 0;
 };

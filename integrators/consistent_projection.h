@@ -1,11 +1,23 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
+#include "integrators/audit.h"
 #include "integrators/dense_lu.h"
+#include "integrators/outcome.h"
+#include "integrators/starting_values.h"
 #include "problems/system.h"
 
+// Consistent values: what the equations of motion and the constraints say at one instant. `audit` counts a matrix and its
+// factorization for each solved system, a back-substitution for each pass of its refinement, and a residual for each
+// evaluation of the forces.
+
 namespace liebench {
+
+// Each pass of iterative refinement gains at least ten digits (condition 3.6e3 for the top): four serve 106 bits.
+template <class T>
+inline constexpr int refinement_passes = ScalarTraits<T>::extended ? 4 : 2;
 
 // The saddle point system of a constrained system at q,
 //
@@ -21,9 +33,9 @@ struct SaddlePointSolution {
   Multipliers<S> y;
 };
 
-template <ConstrainedSystem S>
-std::optional<SaddlePointSolution<S>> solve_saddle_point(const S& system, const Configuration<S>& q,
-                                                         const Velocity<S>& a, const Multipliers<S>& b) {
+template <ConstrainedSystem S, class Audit>
+[[gnu::noinline]] std::optional<SaddlePointSolution<S>> solve_saddle_point(
+    const S& system, const Configuration<S>& q, const Velocity<S>& a, const Multipliers<S>& b, Audit& audit) {
   using T = typename S::Scalar;
   constexpr int m = S::Group::dimension, l = S::constraints;
   const VelocityMatrix<S> M = system.mass_matrix(q);
@@ -34,46 +46,91 @@ std::optional<SaddlePointSolution<S>> solve_saddle_point(const S& system, const 
   A.template topRightCorner<m, l>() = B.transpose().template cast<double>();
   A.template bottomLeftCorner<l, m>() = B.template cast<double>();
   DenseLu<double, m + l> lu;
+  audit.jacobian();
+  audit.factorization(FactorizationCause::start);
   if (!lu.factorize(A)) return std::nullopt;
   SaddlePointSolution<S> s{Velocity<S>::Constant(T(0.0)), Multipliers<S>::Constant(T(0.0))};
-  // Each pass gains at least ten digits (condition 3.6e3 for the top): four serve 106 bits.
-  constexpr int passes = ScalarTraits<T>::extended ? 4 : 2;
-  for (int pass = 0; pass < passes; ++pass) {
+  for (int pass = 0; pass < refinement_passes<T>; ++pass) {
     Eigen::Matrix<T, m + l, 1> r;
     r.template head<m>() = a - M * s.x - B.transpose() * s.y;
     r.template tail<l>() = b - B * s.x;
     const Eigen::Matrix<T, m + l, 1> d = lu.solve(r.template cast<double>()).template cast<T>();
+    audit.solve();
     s.x += d.template head<m>();
     s.y += d.template tail<l>();
   }
   return s;
 }
 
-// The acceleration v' that the equations of motion give at (t, q, v): M v' = -g without constraints; with them, together
-// with lambda, such that the second derivative of the constraint vanishes, B v' = -Z(v, v).
+// The acceleration and the multipliers that the equations of motion give at (t, q, v): M v' = -g without constraints; with
+// them such that the second derivative of the constraint vanishes, B v' = -Z(v, v).
 template <MechanicalSystem S>
-std::optional<Velocity<S>> consistent_acceleration(const S& system, const typename S::Scalar& t,
-                                                   const Configuration<S>& q, const Velocity<S>& v) {
+struct ConsistentDynamics {
+  Velocity<S> acceleration;
+  Multipliers<S> lambda;
+};
+
+template <MechanicalSystem S, class Audit>
+[[gnu::noinline]] std::optional<ConsistentDynamics<S>> consistent_dynamics(const S& system,
+                                                                           const typename S::Scalar& t,
+                                                                           const Configuration<S>& q,
+                                                                           const Velocity<S>& v,
+                                                                           Audit& audit) {
   using T = typename S::Scalar;
   const Velocity<S> force = -system.force(t, q, v);
+  audit.residual();
   if constexpr (S::constraints > 0) {
     const auto solution =
-        solve_saddle_point(system, q, force, Multipliers<S>(-system.constraint_curvature(q, v)));
+        solve_saddle_point(system, q, force, Multipliers<S>(-system.constraint_curvature(q, v)), audit);
     if (!solution) return std::nullopt;
-    return solution->x;
+    return ConsistentDynamics<S>{solution->x, solution->y};
   } else {
     constexpr int m = S::Group::dimension;
     DenseLu<double, m> lu;
     const VelocityMatrix<S> M = system.mass_matrix(q);
+    audit.jacobian();
+    audit.factorization(FactorizationCause::start);
     if (!lu.factorize(M.template cast<double>())) return std::nullopt;
-    Velocity<S> a = Velocity<S>::Constant(T(0.0));
-    constexpr int passes = ScalarTraits<T>::extended ? 4 : 2;
-    for (int pass = 0; pass < passes; ++pass) {
-      const Velocity<S> r = force - system.momentum(q, a);
-      a += lu.solve(r.template cast<double>()).template cast<T>();
+    ConsistentDynamics<S> dynamics{Velocity<S>::Constant(T(0.0)), {}};
+    for (int pass = 0; pass < refinement_passes<T>; ++pass) {
+      const Velocity<S> r = force - system.momentum(q, dynamics.acceleration);
+      dynamics.acceleration += lu.solve(r.template cast<double>()).template cast<T>();
+      audit.solve();
     }
-    return a;
+    return dynamics;
   }
+}
+
+// Moves q on the constraint and v on its hidden counterpart, by the least change in the norm of M:
+//   q <- q o exp(delta~), Phi(q) = 0;   v <- v + Dv, B(q) v = 0
+// The correction of q is repeated until it no longer shrinks, which is its round-off.
+template <MechanicalSystem S, class Audit>
+StepResult project_on_constraints(const S& system, Configuration<S>& q, Velocity<S>& v, Audit& audit) {
+  if constexpr (S::constraints > 0) {
+    using T = typename S::Scalar;
+    const Velocity<S> zero = Velocity<S>::Constant(T(0.0));
+    const auto size = [&] { return to_double(T(Multipliers<S>(system.constraint(q)).norm())); };
+    constexpr int most = 30;
+    double previous = size();
+    for (int i = 0; i < most && previous > 0.0; ++i) {
+      const auto solution = solve_saddle_point(system, q, zero, Multipliers<S>(-system.constraint(q)), audit);
+      if (!solution) return {Outcome::singular_matrix};
+      const Configuration<S> before = q;
+      q = S::Group::compose(q, S::Group::exp(solution->x));
+      const double now = size();
+      if (!std::isfinite(now)) return {Outcome::non_finite};
+      if (now >= previous) {
+        q = before;
+        break;
+      }
+      previous = now;
+    }
+    const auto solution =
+        solve_saddle_point(system, q, zero, Multipliers<S>(-(system.constraint_gradient(q) * v)), audit);
+    if (!solution) return {Outcome::singular_matrix};
+    v += solution->x;
+  }
+  return {};
 }
 
 }  // namespace liebench

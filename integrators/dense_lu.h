@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 #include "groups/scalar.h"
@@ -11,8 +12,9 @@
 namespace liebench {
 
 // LU factorization with partial pivoting of a small matrix of fixed size n, and its back-substitution. The
-// loops over columns are unrolled at compile time, so that every block has a fixed size: for n = 9 a third of
-// the instructions of Eigen's PartialPivLU (benchmarks/kernel_benchmark.cpp).
+// loops over columns are unrolled at compile time, so that every inner loop has a fixed length: for n = 9 a third of
+// the instructions of Eigen's PartialPivLU (benchmarks/kernel_benchmark.cpp). Plain loops, for Eigen's blocks of fixed size
+// would be as many types to compile.
 template <class T, int n>
 class DenseLu {
  public:
@@ -24,65 +26,74 @@ class DenseLu {
   // False where a pivot is zero or not finite; the factors are then unusable.
   bool factorize(const Matrix& A) {
     lu_ = A;
+    std::iota(rows_.begin(), rows_.end(), 0);
     return [&]<std::size_t... j>(std::index_sequence<j...>) {
       return (eliminate<int(j)>() && ...);
     }
     (std::make_index_sequence<std::size_t(n)>{});
   }
 
-  // x with A x = b.
+  // x with A x = b. Entry by entry with all indices known at compile time, so that x stays in registers: packets of two
+  // would start at another row in every column and so read across what was just stored, which stalls the processor.
   Vector solve(const Vector& b) const {
-    Vector x = b;
-    for (int j = 0; j < n; ++j) std::swap(x(j), x(pivots_[std::size_t(j)]));
-    [&]<std::size_t... j>(std::index_sequence<j...>) {
-      (substitute_forward<int(j)>(x), ...);
-      (substitute_backward<n - 1 - int(j)>(x), ...);
+    return [&]<std::size_t... j>(std::index_sequence<j...>) {
+      std::array<T, std::size_t(n)> x{b(rows_[j])...};
+      (substitute_forward<j>(x, std::make_index_sequence<std::size_t(n) - 1 - j>{}), ...);
+      (substitute_backward<std::size_t(n) - 1 - j>(x, std::make_index_sequence<std::size_t(n) - 1 - j>{}),
+       ...);
+      return Vector(Eigen::Map<const Vector>(x.data()));
     }
     (std::make_index_sequence<std::size_t(n)>{});
-    return x;
   }
 
  private:
+  // The matrix column by column, as Eigen stores it.
+  T* column(int j) { return lu_.data() + j * n; }
+  const T* column(int j) const { return lu_.data() + j * n; }
+
   template <int j>
   bool eliminate() {
     using std::abs;
+    T* const pivot_column = column(j);
     int pivot = j;
-    T largest = abs(lu_(j, j));
-    for (int i = j + 1; i < n; ++i)
-      if (largest < abs(lu_(i, j))) {
-        largest = abs(lu_(i, j));
+    T largest = abs(pivot_column[j]);
+    for (int i = j + 1; i < n; ++i) {
+      const T size = abs(pivot_column[i]);
+      if (largest < size) {
+        largest = size;
         pivot = i;
       }
-    pivots_[std::size_t(j)] = pivot;
+    }
     if (!(T(0.0) < largest) || !std::isfinite(to_double(largest))) return false;
-    if (pivot != j) lu_.row(j).swap(lu_.row(pivot));
-    const T inverse = T(1.0) / lu_(j, j);
-    inverse_pivots_[std::size_t(j)] = inverse;
-    constexpr int rest = n - 1 - j;
-    if constexpr (rest > 0) {
-      // Divided, not multiplied by the inverse: only so do two equal rows leave an exact zero.
-      lu_.col(j).template tail<rest>() /= lu_(j, j);
-      for (int c = j + 1; c < n; ++c)
-        lu_.col(c).template tail<rest>() -= lu_(j, c) * lu_.col(j).template tail<rest>();
+    if (pivot != j) {
+      for (int c = 0; c < n; ++c) std::swap(column(c)[j], column(c)[pivot]);
+      std::swap(rows_[std::size_t(j)], rows_[std::size_t(pivot)]);
+    }
+    inverse_pivots_[std::size_t(j)] = T(1.0) / pivot_column[j];
+    // Divided, not multiplied by the inverse: only so do two equal rows leave an exact zero.
+    for (int i = j + 1; i < n; ++i) pivot_column[i] /= pivot_column[j];
+    for (int c = j + 1; c < n; ++c) {
+      T* const changed = column(c);
+      const T factor = changed[j];
+      for (int i = j + 1; i < n; ++i) changed[i] -= factor * pivot_column[i];
     }
     return true;
   }
 
-  template <int j>
-  void substitute_forward(Vector& x) const {
-    constexpr int rest = n - 1 - j;
-    if constexpr (rest > 0) x.template tail<rest>() -= x(j) * lu_.col(j).template tail<rest>();
+  template <std::size_t j, std::size_t... i>
+  void substitute_forward(std::array<T, std::size_t(n)>& x, std::index_sequence<i...>) const {
+    ((x[j + 1 + i] -= x[j] * column(int(j))[j + 1 + i]), ...);
   }
 
-  template <int j>
-  void substitute_backward(Vector& x) const {
-    x(j) *= inverse_pivots_[std::size_t(j)];
-    if constexpr (j > 0) x.template head<j>() -= x(j) * lu_.col(j).template head<j>();
+  template <std::size_t j, std::size_t... i>
+  void substitute_backward(std::array<T, std::size_t(n)>& x, std::index_sequence<i...>) const {
+    x[j] *= inverse_pivots_[j];
+    ((x[i] -= x[j] * column(int(j))[i]), ...);
   }
 
   Matrix lu_;
   std::array<T, std::size_t(n)> inverse_pivots_{};
-  std::array<int, std::size_t(n)> pivots_{};
+  std::array<int, std::size_t(n)> rows_{};  // rows_[i]: the row of A that pivoting brought to place i
 };
 
 }  // namespace liebench

@@ -2,6 +2,9 @@
 
 #include <string_view>
 
+#include "integrators/option.h"
+#include "problems/system.h"
+
 namespace liebench {
 
 // How the constraint of a constrained system enters a step; an unconstrained system has no choice.
@@ -13,6 +16,35 @@ enum class Form {
 
 constexpr Form form_of(std::string_view word) {
   return word == "stabilized_index2" ? Form::stabilized_index2 : Form::index3;
+}
+
+inline constexpr OptionInfo form_option{.name = "form",
+                                        .kind = OptionKind::choice,
+                                        .fallback = 0,
+                                        .choices = {"index3", "stabilized_index2"},
+                                        .scope = OptionScope::constrained,
+                                        .meaning = "formulation of the constrained equations"};
+
+inline constexpr OptionInfo modified_start_option{
+    .name = "modified_start",
+    .kind = OptionKind::boolean,
+    .fallback = 0,
+    .self_start_fallback = 1,
+    .scope = OptionScope::index3,
+    .meaning =
+        "starting velocities moved by the local error, eq. (56): without them lambda loses an order in the "
+        "transient phase of the index-3 form"};
+
+// A run-time option as a compile-time parameter of a stepper.
+template <Form form>
+struct FormConstant {};
+
+// Calls visit(FormConstant<form>{}); a system without constraints has one form.
+template <MechanicalSystem S, class Visitor>
+auto with_form(Form form, Visitor&& visit) {
+  if constexpr (S::constraints > 0)
+    if (form == Form::stabilized_index2) return visit(FormConstant<Form::stabilized_index2>{});
+  return visit(FormConstant<Form::index3>{});
 }
 
 }  // namespace liebench

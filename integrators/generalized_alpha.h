@@ -1,15 +1,17 @@
 #pragma once
 
 #include <array>
-#include <numbers>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
+#include "groups/decimal.h"
+#include "integrators/affine_closure.h"
 #include "integrators/audit.h"
+#include "integrators/basic_stepper.h"
 #include "integrators/consistent_projection.h"
 #include "integrators/form.h"
 #include "integrators/history.h"
-#include "integrators/newton.h"
 #include "integrators/option.h"
 #include "integrators/starting_values.h"
 
@@ -45,16 +47,8 @@ struct GeneralizedAlpha {
        .least = 0.0,
        .most = 1.0,
        .meaning = "spectral radius at infinity: 1 no damping, 0 the strongest"},
-      {.name = "modified_start",
-       .kind = OptionKind::boolean,
-       .fallback = 0,
-       .meaning = "perturbed starting velocity, against the order reduction of lambda in the transient phase "
-                  "(index 3)"},
-      {.name = "form",
-       .kind = OptionKind::choice,
-       .fallback = 0,
-       .choices = {"index3", "stabilized_index2"},
-       .meaning = "formulation of the constrained equations"},
+      modified_start_option,
+      form_option,
   });
 
   struct Options {
@@ -64,8 +58,8 @@ struct GeneralizedAlpha {
   };
   static Options options(const OptionValues& values) {
     return {.rho_inf = values.real("rho_inf"),
-            .modified_start = values.boolean("modified_start"),
-            .form = form_of(values.choice("form"))};
+            .modified_start = values.boolean_or("modified_start", false),
+            .form = form_of(values.choice_or("form", ""))};
   }
 
   template <MechanicalSystem S, Form form, class Audit = NoAudit>
@@ -73,26 +67,26 @@ struct GeneralizedAlpha {
 
   template <MechanicalSystem S, class Audit, class Visitor>
   static auto with_stepper(const Options& options, const S& system, Visitor&& visit) {
-    if constexpr (S::constraints > 0)
-      if (options.form == Form::stabilized_index2)
-        return visit(Stepper<S, Form::stabilized_index2, Audit>(system, options));
-    return visit(Stepper<S, Form::index3, Audit>(system, options));
+    return with_form<S>(options.form, [&]<Form form>(FormConstant<form>) {
+      return visit(Stepper<S, form, Audit>(system, options));
+    });
   }
 };
 
 template <MechanicalSystem S, Form form, class Audit>
-class GeneralizedAlpha::Stepper {
+class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
+  using Base = BasicStepper<S, form, Audit>;
+
  public:
-  using System = S;
-  using T = typename S::Scalar;
-  using Group = typename S::Group;
-  static constexpr int steps = 1;
-  static constexpr int starting_points = 1;
+  using typename Base::Group;
+  using typename Base::T;
+  int steps() const { return 1; }
+  int starting_points() const { return 1; }
 
   Stepper(const S& system, const Options& options)
-      : options_(options), parameters_(T(options.rho_inf)), newton_(system) {
-    lambda_.setConstant(T(0.0));
-    for (Velocity<S>* v : {&velocity_, &acceleration_, &a_}) v->setConstant(T(0.0));
+      : Base(system), modified_start_(options.modified_start), parameters_(decimal<T>(options.rho_inf)) {
+    acceleration_.setConstant(T(0.0));
+    a_.setConstant(T(0.0));
   }
 
   // q_0, v_0 and consistent v'_0, lambda_0; a_0 = v'_0 + (alpha_m - alpha_f) h v''_0, of second order, with h v''_0 from
@@ -108,51 +102,55 @@ class GeneralizedAlpha::Stepper {
     for (const int side : {0, 1}) {
       const T s = side == 0 ? T(-h) : h;
       const Velocity<S> step = s * velocity_ + (s * s / T(2.0)) * acceleration_;
-      const auto a =
-          consistent_acceleration(newton_.system(), T(t_ + s), Group::compose(q_, Group::exp(step)),
-                                  Velocity<S>(velocity_ + s * acceleration_));
+      const auto a = consistent_dynamics(newton_.system(), T(t_ + s), Group::compose(q_, Group::exp(step)),
+                                         Velocity<S>(velocity_ + s * acceleration_), newton_.audit());
       if (!a) return {Outcome::singular_matrix};
-      around[std::size_t(side)] = *a;
+      around[std::size_t(side)] = a->acceleration;
     }
     const Velocity<S> scaled_jerk = (around[1] - around[0]) / T(2.0);  // h v''_0
     const T shift = parameters_.alpha_m - parameters_.alpha_f;
     a_ = acceleration_ + shift * scaled_jerk;
     if constexpr (S::constraints > 0 && form == Form::index3)
-      if (options_.modified_start) return perturb_velocity(scaled_jerk, shift);
+      if (modified_start_) return perturb_velocity(scaled_jerk, shift);
     return {};
   }
 
   StepResult step() {
-    constexpr int m = Group::dimension;
-    const AffineClosure<S> closure = next_closure();
-    typename Kernel::Unknowns z = Kernel::Unknowns::Constant(T(0.0));
-    if (changes_.size() > 0) z.template head<m>() = changes_.extrapolated();
-    if constexpr (S::constraints > 0) z.template segment<S::constraints>(m) = h_ * lambda_;
-    const T t = t_ + h_;
-    typename Kernel::Point point;
-    const StepResult result = newton_.solve(t, h_, q_, closure, z, point);
+    if constexpr (std::is_same_v<T, double>) {
+      return step_inlined();
+    } else {
+      return take_step();
+    }
+  }
+
+ private:
+  // In double all but the kernel's solve() is inlined: what is passed through memory stalls the processor.
+  [[gnu::flatten]] StepResult step_inlined() { return take_step(); }
+
+  StepResult take_step() {
+    Velocity<S> change = Velocity<S>::Constant(T(0.0));
+    if (changes_.size() > 0) change = changes_.extrapolated();
+    Multipliers<S> scaled_lambda;
+    if constexpr (S::constraints > 0)
+      scaled_lambda =
+          scaled_lambdas_.size() > 0 ? scaled_lambdas_.extrapolated() : Multipliers<S>(h_ * lambda_);
+    typename Base::Point point;
+    const StepResult result = Base::advance(next_closure(), change, scaled_lambda, point);
     if (result.outcome != Outcome::ok) return result;
-    if (!(to_double(Group::rotation_angle(point.step)) < std::numbers::pi))
-      return {Outcome::rotation_too_large};
-    t_ = t;
-    q_ = point.q;
-    velocity_ = point.v;
-    acceleration_ = point.scaled_acceleration / h_;
+    acceleration_ = point.values.scaled_acceleration / h_;
     // d = beta h (a_{n+1} - a_n)
     a_ += point.change / (parameters_.beta * h_);
     changes_.push(point.change);
-    if constexpr (S::constraints > 0) lambda_ = z.template segment<S::constraints>(m) / h_;
+    if constexpr (S::constraints > 0) scaled_lambdas_.push(scaled_lambda);
     return result;
   }
 
-  const T& time() const { return t_; }
-  const Configuration<S>& configuration() const { return q_; }
-  const Velocity<S>& velocity() const { return velocity_; }
-  const Multipliers<S>& multipliers() const { return lambda_; }
-  const Audit& audit() const { return newton_.audit(); }
-
- private:
-  using Kernel = NewtonKernel<S, form, Audit>;
+  using Base::h_;
+  using Base::lambda_;
+  using Base::newton_;
+  using Base::q_;
+  using Base::t_;
+  using Base::velocity_;
 
   // With d = Dq - v_n - h a_n / 2 = beta h (a_{n+1} - a_n):
   //   v_{n+1} = v_n + h a_n + (gamma / beta) d
@@ -160,7 +158,7 @@ class GeneralizedAlpha::Stepper {
   AffineClosure<S> next_closure() const {
     const auto& p = parameters_;
     const T rest = T(1.0) - p.alpha_f;
-    return {.base = velocity_ + (h_ / T(2.0)) * a_,
+    return {.base_increment = velocity_ + (h_ / T(2.0)) * a_,
             .velocity = velocity_,
             .velocity_slope = p.gamma / p.beta,
             .velocity_change = h_ * a_,
@@ -175,23 +173,19 @@ class GeneralizedAlpha::Stepper {
     const Velocity<S> local_error =
         factor * h_ * scaled_jerk + (h_ * h_ / T(12.0)) * Group::commutator(velocity_, acceleration_);
     const Multipliers<S> b = newton_.system().constraint_gradient(q_) * local_error;
-    const auto solution = solve_saddle_point(newton_.system(), q_, Velocity<S>::Constant(T(0.0)).eval(), b);
+    const auto solution =
+        solve_saddle_point(newton_.system(), q_, Velocity<S>::Constant(T(0.0)).eval(), b, newton_.audit());
     if (!solution) return {Outcome::singular_matrix};
     velocity_ += solution->x;
     return {};
   }
 
-  Options options_;
+  bool modified_start_;
   GeneralizedAlphaParameters<T> parameters_;
-  Kernel newton_;
-  T h_ = T(0.0);
-  T t_ = T(0.0);
-  Configuration<S> q_ = Group::identity();
-  Velocity<S> velocity_;             // v_n
-  Velocity<S> acceleration_;         // v'_n
-  Velocity<S> a_;                    // a_n
-  Multipliers<S> lambda_;            // lambda_n
-  History<Velocity<S>, 3> changes_;  // beta h (a_n - a_{n-1}), ...: for the prediction
+  Velocity<S> acceleration_;                   // v'_n
+  Velocity<S> a_;                              // a_n
+  History<Velocity<S>, 3> changes_;            // beta h (a_n - a_{n-1}), ...: for the prediction
+  History<Multipliers<S>, 3> scaled_lambdas_;  // h lambda_n, ...: for the prediction
 };
 
 }  // namespace liebench

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "integrators/audit.h"
 #include "integrators/dense_lu.h"
@@ -45,51 +46,75 @@ class NewtonKernel {
 
   const S& system() const { return system_; }
   const Audit& audit() const { return audit_; }
+  Audit& audit() { return audit_; }
 
-  // Solves the step equation from the prediction in z; leaves the solution in z and the new state in `point`.
+  // Solves the step equation from the prediction in z; leaves the solution in z and the new state in `point`. Not to be
+  // inlined: all methods whose closures are of one type share its code. In double all that it calls is, so that the small
+  // matrices stay in registers.
   template <class Closure>
-  StepResult solve(const T& t, const T& h, const Configuration<S>& q_n, const Closure& closure, Unknowns& z,
-                   Point& point) {
-    const typename Equation::Origin origin = Equation::origin(system_, q_n);
+  [[gnu::noinline]] StepResult solve(const T& t, const T& h, const Configuration<S>& q_n,
+                                     const Closure& closure, Unknowns& z, Point& point) {
+    if constexpr (std::is_same_v<T, double>) {
+      return solve_inlined(t, h, q_n, closure, z, point);
+    } else {
+      return iterate(t, h, q_n, closure, z, point);
+    }
+  }
+
+ private:
+  template <class Closure>
+  [[gnu::flatten]] StepResult solve_inlined(const T& t, const T& h, const Configuration<S>& q_n,
+                                            const Closure& closure, Unknowns& z, Point& point) {
+    return iterate(t, h, q_n, closure, z, point);
+  }
+
+  template <class Closure>
+  StepResult iterate(const T& t, const T& h, const Configuration<S>& q_n, const Closure& closure, Unknowns& z,
+                     Point& point) {
     bool fresh = false;    // the matrix was formed in this step
     bool stalled = false;  // the last increment did not shrink, with a fresh matrix
     double previous = 0.0;
     const double scale = fixed_scale(closure, q_n, to_double(h));
-    Unknowns r = Unknowns::Constant(T(0.0));
+    Unknowns r;
     if (!factorized_ || marginal_cost_exceeds_average()) {
-      point = Equation::point(origin, h, closure, z);
       const auto cause = factorized_ ? FactorizationCause::refresh : FactorizationCause::first;
-      if (!factorize(t, h, origin, point, closure, z, cause)) return failure(Outcome::singular_matrix, r);
+      if (const Outcome formed = factorize(t, h, q_n, closure, z, z, cause); formed != Outcome::ok)
+        return {formed};
       fresh = true;
     }
-    for (int iteration = 1; iteration <= max_iterations; ++iteration) {
-      point = Equation::point(origin, h, closure, z);
-      r = Equation::residual(system_, t, h, point, z);
+    for (int iteration = 1;; ++iteration) {
+      // One place each where a point is evaluated in the loop and behind it: so the compiler keeps it in registers.
+      Equation::evaluate(system_, h, q_n, closure, z, point);
+      Equation::residual(system_, t, h, point, z, r);
+      audit_.iteration();
       audit_.residual();
       const Correction d = lu_.solve(to_linear(r));
       audit_.solve();
+      const Unknowns before = z;
       z -= d.template cast<T>();
-      const double size = weighted_norm(d, z, scale);
+      double largest_d;
+      const double size = weighted_norm(d, z, scale, largest_d);
       if (!std::isfinite(size)) return failure(Outcome::non_finite, r);
       if constexpr (!S::Group::commutative)
-        if (to_linear(z).template head<m>().template lpNorm<Eigen::Infinity>() * to_double(h) > farthest)
-          return failure(Outcome::newton_diverged, r);
+        if (largest_d * to_double(h) > farthest) return failure(Outcome::newton_diverged, r);
 
       // Below one unit a size is noise: it bounds the rate, it does not measure it.
       const double rate = iteration > 1 ? std::max(size, 1.0) / previous : rate_;
       if (size <= unit || rate * size <= unit) {
-        rate_ = std::min(1.0, rate * safety);
-        return finish(origin, h, closure, z, point, iteration);
+        rate_ = fresh ? 1.0 : std::min(1.0, rate * safety);
+        finish(iteration);
+        break;
       }
       if (iteration > 1 && rate > slowest_rate) {
-        if (size <= noise) {
-          return finish(origin, h, closure, z, point, iteration);
-        } else if (!fresh) {
-          if (!factorize(t, h, origin, point, closure, z, FactorizationCause::slow_convergence))
-            return failure(Outcome::singular_matrix, r);
+        if (size <= noise || (fresh && size <= floor)) {
+          finish(iteration);
+          break;
+        }
+        if (!fresh) {
+          const Outcome formed =
+              factorize(t, h, q_n, closure, before, z, FactorizationCause::slow_convergence);
+          if (formed != Outcome::ok) return failure(formed, r);
           fresh = true;
-        } else if (size <= floor) {
-          return finish(origin, h, closure, z, point, iteration);
         } else if (stalled && rate > 1.0) {
           return failure(Outcome::newton_diverged, r);
         } else {
@@ -98,18 +123,20 @@ class NewtonKernel {
       } else {
         stalled = false;
       }
+      if (iteration == max_iterations) return failure(Outcome::newton_diverged, r);
       previous = size;
     }
-    return failure(Outcome::newton_diverged, r);
+    Equation::evaluate(system_, h, q_n, closure, z, point);
+    return {};
   }
 
- private:
   static constexpr int max_iterations = 60;
   // rad: no sine is worth taking beyond.
   static constexpr double farthest = 1e8;
   static constexpr double slowest_rate = 0.5;
   // The rate of a factorization grows as it ages: a rate seen before counts for twice as much, so that it is
-  // seen anew before it can mislead.
+  // seen anew before it can mislead. That of the step it was made in says nothing of the next: the matrix was that of this
+  // step, and is one step old then.
   static constexpr double safety = 2.0;
   // In units of round-off: the tolerance; what a stalled iteration is allowed where the matrix may be old;
   // and where it is fresh, because residual round-off reaches the unknowns through the inverse of the matrix
@@ -129,52 +156,57 @@ class NewtonKernel {
   // What round-off of d is relative to, apart from d itself.
   template <class Closure>
   static double fixed_scale(const Closure& closure, const Configuration<S>& q_n, double h) {
-    double scale = 0.01 * closure.base.template cast<double>().template lpNorm<Eigen::Infinity>();
+    double scale = 0.01 * closure.base().template cast<double>().template lpNorm<Eigen::Infinity>();
     if constexpr (l > 0)
       scale += S::Group::stacked(q_n).template cast<double>().template lpNorm<Eigen::Infinity>() / h;
     return scale;
   }
 
-  // Corrections in units of round-off of the unknowns.
-  double weighted_norm(const Correction& d, const Unknowns& z, double scale) const {
+  // Corrections in units of round-off of the unknowns; and the largest |d_i| of z.
+  [[gnu::always_inline]] double weighted_norm(const Correction& d, const Unknowns& z, double scale,
+                                              double& largest_d) const {
     const Correction z_linear = to_linear(z);
-    scale += z_linear.template head<m>().template lpNorm<Eigen::Infinity>();
-    double size = relative(d.template head<m>().template lpNorm<Eigen::Infinity>(), scale);
+    largest_d = z_linear.template head<m>().template lpNorm<Eigen::Infinity>();
+    scale += largest_d;
+    double largest = d.template head<m>().template lpNorm<Eigen::Infinity>();
+    if constexpr (Equation::stabilized)
+      largest = std::max(largest, d.template tail<l>().template lpNorm<Eigen::Infinity>());
+    double size = relative(largest, scale);
     if constexpr (l > 0) {
       const double multiplier_scale =
           z_linear.template segment<l>(m).template lpNorm<Eigen::Infinity>() + mass_scale_ * scale;
       size = std::max(
           size, relative(d.template segment<l>(m).template lpNorm<Eigen::Infinity>(), multiplier_scale));
     }
-    if constexpr (Equation::stabilized)
-      size = std::max(size, relative(d.template tail<l>().template lpNorm<Eigen::Infinity>(), scale));
     return size;
   }
 
   static double relative(double value, double scale) {
-    if (value == 0.0) return 0.0;
     const double eps = to_double(Eigen::NumTraits<T>::epsilon());
     return value / (eps * scale + std::numeric_limits<double>::min());
   }
 
+  // At the point of `at`, with the multipliers of z.
   template <class Closure>
-  bool factorize(const T& t, const T& h, const typename Equation::Origin& origin, const Point& point,
-                 const Closure& closure, const Unknowns& z, FactorizationCause cause) {
+  [[gnu::noinline]] Outcome factorize(const T& t, const T& h, const Configuration<S>& q_n,
+                                      const Closure& closure, const Unknowns& at, const Unknowns& z,
+                                      FactorizationCause cause) {
+    Point point;
+    Equation::evaluate(system_, h, q_n, closure, at, point);
+    const auto derivatives = closure.linearization(point.change);
     typename Lu::Matrix J;
     if constexpr (std::is_same_v<T, double>) {
-      Equation::jacobian(system_, t, h, origin, point, z, closure.velocity_derivative(),
-                         closure.scaled_acceleration_derivative(), J);
+      Equation::jacobian(system_, t, h, q_n, point, z, derivatives, J);
     } else {
       using LinearEquation = StepEquation<LinearSystem, form>;
-      const typename LinearEquation::Origin linear_origin{S::Group::template cast<double>(origin.q),
-                                                          origin.gradient.template cast<double>()};
-      const typename LinearEquation::Point linear_point{
-          point.change.template cast<double>(), point.step.template cast<double>(),
-          S::Group::template cast<double>(point.q), point.v.template cast<double>(),
-          point.scaled_acceleration.template cast<double>()};
-      LinearEquation::jacobian(linear_system_, to_double(t), to_double(h), linear_origin, linear_point,
-                               to_linear(z), to_double(closure.velocity_derivative()),
-                               to_double(closure.scaled_acceleration_derivative()), J);
+      typename LinearEquation::Point linear_point;
+      linear_point.step = point.step.template cast<double>();
+      linear_point.q = S::Group::template cast<double>(point.q);
+      linear_point.values.velocity = point.values.velocity.template cast<double>();
+      linear_point.values.scaled_acceleration = point.values.scaled_acceleration.template cast<double>();
+      LinearEquation::jacobian(linear_system_, to_double(t), to_double(h),
+                               S::Group::template cast<double>(q_n), linear_point, to_linear(z), derivatives,
+                               J);
     }
     audit_.jacobian();
     mass_scale_ = J.template topLeftCorner<m, m>().template lpNorm<Eigen::Infinity>();
@@ -184,17 +216,14 @@ class NewtonKernel {
     steps_ = 0;
     last_ = 0;
     rate_ = 1.0;
-    return factorized_;
+    if (factorized_) return Outcome::ok;
+    return J.allFinite() ? Outcome::singular_matrix : Outcome::non_finite;
   }
 
-  template <class Closure>
-  StepResult finish(const typename Equation::Origin& origin, const T& h, const Closure& closure,
-                    const Unknowns& z, Point& point, int iterations) {
+  void finish(int iterations) {
     spent_ += iterations;
     ++steps_;
     last_ = iterations;
-    point = Equation::point(origin, h, closure, z);
-    return {};
   }
 
   StepResult failure(Outcome outcome, const Unknowns& r) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "integrators/affine_closure.h"
 #include "integrators/form.h"
 #include "problems/system.h"
 
@@ -21,33 +22,6 @@
 
 namespace liebench {
 
-// Closure of the methods whose v and v' are affine in the increment (BLieDF2nd, generalized-alpha), about the
-// increment `base` = Dq_{n-1} and the velocity v_n:
-//
-//   Dq = base + d
-//   v = v_n + velocity_slope d + velocity_change
-//   h v' = acceleration_slope d + scaled_acceleration
-template <MechanicalSystem S>
-struct AffineClosure {
-  using T = typename S::Scalar;
-  Velocity<S> base;
-  Velocity<S> velocity;  // v_n
-  T velocity_slope;
-  Velocity<S> velocity_change;
-  T acceleration_slope;
-  Velocity<S> scaled_acceleration;
-
-  Velocity<S> increment(const Velocity<S>& d) const { return base + d; }
-  Velocity<S> change_of_velocity(const Velocity<S>& d) const { return velocity_slope * d + velocity_change; }
-  Velocity<S> velocity_at(const Velocity<S>& d) const { return velocity + change_of_velocity(d); }
-  Velocity<S> scaled_acceleration_at(const Velocity<S>& d) const {
-    return acceleration_slope * d + scaled_acceleration;
-  }
-  // Derivatives of both with respect to d: a number or an m x m matrix.
-  const T& velocity_derivative() const { return velocity_slope; }
-  const T& scaled_acceleration_derivative() const { return acceleration_slope; }
-};
-
 // The stabilized index-2 form has, beside Phi(q) = 0, the hidden constraint B(q) v = 0 and an auxiliary multiplier eta
 // that joins the increment in the closure of the method (not in the position update): v and h v' are those of
 // d + B(q_n)^T eta. On the exact solution eta = 0. Unknowns (d, h lambda, eta), rows (h r, Phi / h, B v):
@@ -65,62 +39,55 @@ class StepEquation {
   static constexpr int n = m + (stabilized ? 2 * l : l);
   using Unknowns = Eigen::Matrix<T, n, 1>;  // (d, h lambda, eta)
 
-  // What a step starts from: q_n, and B(q_n) where eta needs it.
-  struct Origin {
-    Configuration<S> q;
-    Eigen::Matrix<T, stabilized ? l : 0, m> gradient;
-  };
-  static Origin origin(const S& system, const Configuration<S>& q_n) {
-    Origin o{q_n, {}};
-    if constexpr (stabilized) o.gradient = system.constraint_gradient(q_n);
-    return o;
-  }
-
   // The new state that belongs to given unknowns.
   struct Point {
-    Velocity<S> change;  // d, with B_n^T eta in the stabilized form: what the closure takes
-    Velocity<S> step;    // h Dq
+    Velocity<S> change;       // d, with B_n^T eta in the stabilized form: what the closure takes
+    Velocity<S> step;         // h Dq
+    Configuration<S> motion;  // exp(h Dq~)
     Configuration<S> q;
-    Velocity<S> v;
-    Velocity<S> scaled_acceleration;  // h v'
+    ClosureValues<S> values;
   };
 
   template <class Closure>
-  static Point point(const Origin& origin, const T& h, const Closure& closure, const Unknowns& z) {
-    const Velocity<S> d = z.template head<m>();
-    Velocity<S> change = d;
-    if constexpr (stabilized) change += origin.gradient.transpose() * z.template tail<l>();
-    const Velocity<S> step = h * closure.increment(d);
-    return {change, step, S::Group::compose(origin.q, S::Group::exp(step)), closure.velocity_at(change),
-            closure.scaled_acceleration_at(change)};
+  [[gnu::always_inline]] static void evaluate(const S& system, const T& h, const Configuration<S>& q_n,
+                                              const Closure& closure, const Unknowns& z, Point& p) {
+    p.change = z.template head<m>();
+    p.step = h * closure.increment(p.change);
+    if constexpr (stabilized) {
+      const Multipliers<S> eta = z.template tail<l>();
+      p.change += system.constraint_force(q_n, eta);
+    }
+    p.motion = S::Group::exp(p.step);
+    p.q = S::Group::compose(q_n, p.motion);
+    p.values = closure.at(p.change);
   }
 
   // (h r, Phi / h, B v)
-  static Unknowns residual(const S& system, const T& t, const T& h, const Point& p, const Unknowns& z) {
-    Unknowns r;
-    r.template head<m>() = system.momentum(p.q, p.scaled_acceleration) + h * system.force(t, p.q, p.v);
+  [[gnu::always_inline]] static void residual(const S& system, const T& t, const T& h, const Point& p,
+                                              const Unknowns& z, Unknowns& r) {
+    const Velocity<S>& v = p.values.velocity;
+    r.template head<m>() = system.momentum(p.q, p.values.scaled_acceleration) + h * system.force(t, p.q, v);
     if constexpr (l > 0) {
       const Multipliers<S> scaled_lambda = z.template segment<l>(m);
       r.template head<m>() += system.constraint_force(p.q, scaled_lambda);
       r.template segment<l>(m) = system.constraint(p.q) / h;
     }
-    if constexpr (stabilized) r.template tail<l>() = system.constraint_gradient(p.q) * p.v;
-    return r;
+    if constexpr (stabilized) r.template tail<l>() = system.constraint_gradient(p.q) * v;
   }
 
-  // The Newton matrix at the point, of which dv and h_da are the derivatives of v and h v' with respect to d.
-  template <class Matrix, class VelocityDerivative, class AccelerationDerivative>
-  static void jacobian(const S& system, const T& t, const T& h, const Origin& origin, const Point& p,
-                       const Unknowns& z, const VelocityDerivative& dv, const AccelerationDerivative& h_da,
-                       Matrix& J) {
+  // The Newton matrix at the point, with the derivatives of the closure there.
+  template <class Matrix, class Derivative>
+  static void jacobian(const S& system, const T& t, const T& h, const Configuration<S>& q_n, const Point& p,
+                       const Unknowns& z, const ClosureDerivatives<Derivative>& closure, Matrix& J) {
+    const Velocity<S>& v = p.values.velocity;
     // A constant mass matrix has no part in K.
     Velocity<S> acceleration = Velocity<S>::Constant(T(0.0));
-    if constexpr (!S::constant_mass) acceleration = p.scaled_acceleration / h;
+    if constexpr (!S::constant_mass) acceleration = p.values.scaled_acceleration / h;
     Multipliers<S> lambda;
     if constexpr (l > 0) lambda = z.template segment<l>(m) / h;
-    const VelocityMatrix<S> K = system.stiffness(t, p.q, p.v, acceleration, lambda);
-    const VelocityMatrix<S> inertial =
-        system.mass_matrix(p.q) * h_da + (h * system.damping(t, p.q, p.v)) * dv;
+    const VelocityMatrix<S> K = system.stiffness(t, p.q, v, acceleration, lambda);
+    const VelocityMatrix<S> inertial = system.mass_matrix(p.q) * closure.scaled_acceleration +
+                                       (h * system.damping(t, p.q, v)) * closure.velocity;
     if constexpr (n > m) J.setConstant(T(0.0));
     J.template topLeftCorner<m, m>() = inertial + (h * h) * S::Group::times_tangent(K, p.step);
     if constexpr (l > 0) {
@@ -128,10 +95,12 @@ class StepEquation {
       J.template block<m, l>(0, m) = B.transpose();
       J.template block<l, m>(m, 0) = S::Group::times_tangent(B, p.step);
       if constexpr (stabilized) {
-        const ConstraintGradient<S> Z = system.constraint_gradient_derivative(p.q, p.v);
-        J.template topRightCorner<m, l>() = inertial * origin.gradient.transpose();
-        J.template bottomLeftCorner<l, m>() = B * dv + h * S::Group::times_tangent(Z, p.step);
-        J.template bottomRightCorner<l, l>() = (B * dv) * origin.gradient.transpose();
+        const ConstraintGradient<S> Z = system.constraint_gradient_derivative(p.q, v);
+        const ConstraintGradient<S> B_n = system.constraint_gradient(q_n);
+        J.template topRightCorner<m, l>() = inertial * B_n.transpose();
+        const ConstraintGradient<S> velocity_gradient = B * closure.velocity;
+        J.template bottomLeftCorner<l, m>() = velocity_gradient + h * S::Group::times_tangent(Z, p.step);
+        J.template bottomRightCorner<l, l>() = velocity_gradient * B_n.transpose();
       }
     }
   }

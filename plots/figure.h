@@ -53,6 +53,14 @@ struct OrderLine {
   std::string text = {};
 };
 
+/// A vertical line over the whole height of a panel, with its text beside its upper end: a predicted bound.
+struct VerticalLine {
+  double x = 0;
+  std::string text = {};
+  /// Colour, as that of a series.
+  int style = 0;
+};
+
 struct Panel {
   std::string title = {};
   /// Quantity and unit: "step size h in s". Panels of a figure with the same x_label get the same x range,
@@ -63,6 +71,8 @@ struct Panel {
   bool log_y = true;
   std::vector<Series> series = {};
   std::vector<OrderLine> orders = {};
+  /// Those beyond the x range are not drawn.
+  std::vector<VerticalLine> lines = {};
   /// Only where the automatic range (all of the data) will not do.
   std::optional<Range> x_range = {};
   std::optional<Range> y_range = {};

@@ -184,6 +184,18 @@ std::string panel_commands(const Layout& layout, const Panel& panel, const Panel
         fmt::format("set label {} {} at first {},{} center font ',{}' tc rgb '#303030' back\n", tag,
                     gnuplot_literal(triangle.text), triangle.text_at.x, triangle.text_at.y, order_font_size);
   }
+  for (std::size_t i = 0; i < panel.lines.size(); ++i) {
+    const VerticalLine& line = panel.lines[i];
+    if (!(line.x >= axes.x.range.lower && line.x <= axes.x.range.upper)) continue;
+    ++tag;
+    const std::string_view colour = colour_of({.style = line.style});
+    // The texts stand upright to the left of their lines, one low, the next one high, so that lines may lie close together.
+    result += fmt::format(
+        "set arrow {0} from first {1}, graph 0 to first {1}, graph 1 nohead front lc rgb '{2}' lw 1 dt 3\n"
+        "set label {0} {3} at first {1}, graph {5} rotate by 90 left offset character -0.8,0 tc rgb '{2}' "
+        "font ',{4}' front\n",
+        tag, line.x, colour, gnuplot_literal(line.text), order_font_size, i % 2 == 0 ? 0.03 : 0.5);
+  }
   if (curves.empty()) {
     ++tag;
     result += fmt::format("set label {} 'no data' at graph 0.5,0.5 center tc rgb '#606060'\n", tag);
@@ -193,7 +205,7 @@ std::string panel_commands(const Layout& layout, const Panel& panel, const Panel
     result += fmt::format("${} using 1:2 {} notitle, \\\n  ", curve.name, curve.look);
   // The last one is never seen; it keeps a panel without data a panel.
   result += "1/0 notitle\n";
-  return result + "unset object\nunset label\n";
+  return result + "unset object\nunset arrow\nunset label\n";
 }
 
 std::string terminal_commands(const std::filesystem::path& output, const Layout& layout) {

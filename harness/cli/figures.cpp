@@ -8,6 +8,7 @@
 #include "harness/embedded.h"
 #include "harness/errors.h"
 #include "harness/execute.h"
+#include "harness/formulations.h"
 #include "harness/progress.h"
 #include "harness/record_file.h"
 #include "harness/study.h"
@@ -65,12 +66,15 @@ int figures(const FigureOptions& options) {
   require_writable_folder(out);
 
   std::vector<RunSpec> runs;
+  std::vector<std::size_t> ends;  // of the runs of each figure
   double work = 0.0;
-  for (const PaperFigure& figure : chosen)
+  for (const PaperFigure& figure : chosen) {
     for (RunSpec& run : figure_runs(figure, options.short_form)) {
       work += expected_work(run);
       runs.push_back(std::move(run));
     }
+    ends.push_back(runs.size());
+  }
   std::vector<Json> records(runs.size());
   std::size_t failures = 0;
   {
@@ -83,17 +87,23 @@ int figures(const FigureOptions& options) {
 
   std::map<std::string, std::vector<Json>> by_study;
   for (std::size_t i = 0; i < runs.size(); ++i) by_study[runs[i].study].push_back(records[i]);
-  for (const PaperFigure& figure : chosen) {
-    const std::vector<Json>& rows = by_study.at(std::string(figure.name));
+  std::size_t begin = 0;
+  for (std::size_t number = 0; number < chosen.size(); ++number) {
+    const PaperFigure& figure = chosen[number];
+    const std::vector<Json> rows(records.begin() + std::ptrdiff_t(begin),
+                                 records.begin() + std::ptrdiff_t(ends[number]));
+    begin = ends[number];
     write_whole(out / fmt::format("{}.jsonl", figure.name), json_lines(rows));
+    if (figure.name == "formulations") write_whole(out / "formulations.md", formulations_report(rows));
+    std::filesystem::path shown = out / fmt::format("{}.jsonl", figure.name);
     for (const auto& [name, picture] : draw_paper_figure(figure, rows)) {
       std::vector<std::filesystem::path> files;
       for (const char* ending : {"svg", "pdf", "png"})
         files.push_back(out / fmt::format("{}.{}", name, ending));
       draw(picture, files);
+      if (name == figure.name) shown = files.front();
     }
-    fmt::print("{}: {} runs, {}\n", figure.name, rows.size(),
-               (out / fmt::format("{}.svg", figure.name)).string());
+    fmt::print("{}: {} runs, {}\n", figure.name, rows.size(), shown.string());
   }
   const std::string note =
       options.short_form
@@ -104,6 +114,7 @@ int figures(const FigureOptions& options) {
           : "";
   const Verification verification = verify(by_study, note);
   write_whole(out / "verification.md", verification.markdown);
+  if (!verification.csv.empty()) write_whole(out / "verification.csv", verification.csv);
   fmt::print("verification: {} of {} claims confirmed, {}\n", verification.confirmed, verification.claims,
              (out / "verification.md").string());
   if (failures > 0)

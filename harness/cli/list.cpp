@@ -26,19 +26,24 @@ std::string default_text(const OptionInfo& info) {
         else
           return fmt::format("{}", value);
       },
-      option_default(info));
+      option_default(info, false));
 }
 
 void describe_method(const MethodInfo& method) {
   fmt::print("{}: {}\n\nOptions:\n", method.name, method.summary);
   for (const OptionInfo& info : method.options)
-    fmt::print("  {:<18} {}\n  {:<18} {}; default {}\n", info.name, info.meaning, "", allowed_values(info),
-               default_text(info));
+    fmt::print("  {:<18} {}\n  {:<18} {}; default {}{}{}\n", info.name, info.meaning, "",
+               allowed_values(info), default_text(info),
+               info.self_start_fallback
+                   ? fmt::format(", with \"start\": \"self\" {}", *info.self_start_fallback != 0.0)
+                   : "",
+               info.scope == OptionScope::everywhere ? "" : fmt::format("; only with {}", scope_text(info)));
   fmt::print(
       "\n"
       "In a study:\n  {{\"name\": \"{}\"",
       method.name);
-  for (const OptionInfo& info : method.options) fmt::print(", \"{}\": {}", info.name, default_text(info));
+  for (const OptionInfo& info : method.options)
+    if (info.scope == OptionScope::everywhere) fmt::print(", \"{}\": {}", info.name, default_text(info));
   fmt::print("}}\n");
 }
 

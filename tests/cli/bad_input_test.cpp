@@ -50,8 +50,8 @@ TEST_F(BadInput, AStudyThatCannotBeRunIsRefusedWithItsPlace) {
   expect_study_refused(
       "/integrators/0/name", "\"bliedf2\"",
       {"liebench: /integrators/0/name: unknown integrator \"bliedf2\"", "did you mean \"bliedf2nd\"?"});
-  expect_study_refused("/integrators/0/k", "7", {"/integrators/0/k: 7", "an integer from 1 to 4"});
-  expect_study_refused("/integrators/0/k", "2.5", {"/integrators/0/k: 2.5", "an integer from 1 to 4"});
+  expect_study_refused("/integrators/0/k", "7", {"/integrators/0/k: 7", "an integer from 1 to 6"});
+  expect_study_refused("/integrators/0/k", "2.5", {"/integrators/0/k: 2.5", "an integer from 1 to 6"});
   expect_study_refused("/step_sizes/1", "-0.001", {"/step_sizes/1: -0.001", "a positive step size"});
   expect_study_refused("/step_sizes/1", "0", {"/step_sizes/1: 0", "a positive step size"});
   expect_study_refused("/t_end", "-1", {"/t_end: -1", "after t_0 = 0"});

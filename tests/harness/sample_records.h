@@ -38,10 +38,10 @@ inline RunSpec sample_spec(const SampleRun& sample) {
   Json study;
   study["name"] = sample.study;
   study["problems"] = Json::array({{{"name", "heavy_top"}, {"formulation", sample.formulation}}});
-  study["integrators"] = Json::array({{{"name", "bliedf2nd"},
-                                       {"k", sample.k},
-                                       {"correction", sample.correction},
-                                       {"modified_start", sample.modified_start}}});
+  study["integrators"] =
+      Json::array({{{"name", "bliedf2nd"}, {"k", sample.k}, {"correction", sample.correction}}});
+  if (sample.formulation == "R3xSO3") study["integrators"][0]["modified_start"] = sample.modified_start;
+  study["start"] = "reference";
   study["step_sizes"] = Json::array({sample.step_size});
   if (sample.local)
     study["steps"] = 1;

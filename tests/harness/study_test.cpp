@@ -18,7 +18,7 @@ namespace {
 
 Json base() {
   return parse_json(R"({"name": "test", "problems": [{"name": "heavy_top", "formulation": "R3xSO3"}],
-                        "integrators": [{"name": "bliedf2nd", "k": 3}], "step_sizes": [1e-2], "t_end": 0.1})",
+                        "integrators": [{"name": "bliedf2nd", "k": 3}], "step_sizes": [1e-2], "start": "reference", "t_end": 0.1})",
                     "test");
 }
 
@@ -77,65 +77,70 @@ const char* const inertia =
 
 INSTANTIATE_TEST_SUITE_P(
     Names, BadStudyIsRefused,
-    testing::Values(
-        BadStudy{"misspelt_method",
-                 "/integrators/0/name",
-                 "\"bliedf2\"",
-                 "/integrators/0/name",
-                 {"unknown integrator \"bliedf2\"", "allowed: \"bliedf2nd\"", "did you mean \"bliedf2nd\"?"}},
-        BadStudy{"unknown_method",
-                 "/integrators/0/name",
-                 "\"rk4\"",
-                 "/integrators/0/name",
-                 {"unknown integrator \"rk4\"", "allowed: \"bliedf2nd\""}},
-        BadStudy{"misspelt_problem",
-                 "/problems/0/name",
-                 "\"heavy-top\"",
-                 "/problems/0/name",
-                 {"unknown problem \"heavy-top\"", "did you mean \"heavy_top\"?"}},
-        BadStudy{"misspelt_formulation",
-                 "/problems/0/formulation",
-                 "\"SO_3\"",
-                 "/problems/0/formulation",
-                 {"unknown formulation \"SO_3\"", "\"SO3\" or \"R3xSO3\"", "did you mean \"SO3\"?"}},
-        BadStudy{"formulation_in_list",
-                 "/problems/0/formulation",
-                 "[\"SO3\", \"SE3\"]",
-                 "/problems/0/formulation/1",
-                 {"\"SE3\"", "\"SO3\" or \"R3xSO3\""}},
-        BadStudy{"misspelt_key",
-                 "/step_size",
-                 "[1]",
-                 "/step_size",
-                 {"unknown key \"step_size\"", "\"step_sizes\"", "did you mean \"step_sizes\"?"}},
-        BadStudy{"misspelt_problem_key",
-                 "/problems/0/formulations",
-                 "\"SO3\"",
-                 "/problems/0/formulations",
-                 {"unknown key", "did you mean \"formulation\"?"}},
-        BadStudy{"misspelt_parameter",
-                 "/problems/0/parameters",
-                 "{\"mas\": 3}",
-                 "/problems/0/parameters/mas",
-                 {"unknown key \"mas\"", "did you mean \"mass\"?"}},
-        BadStudy{"parameter_key_with_slash",
-                 "/problems/0/parameters",
-                 "{\"a/b\": 3}",
-                 "/problems/0/parameters/a~1b",
-                 {"unknown key \"a/b\""}},
-        BadStudy{"misspelt_option",
-                 "/integrators/0/correctio",
-                 "true",
-                 "/integrators/0/correctio",
-                 {"unknown key \"correctio\"", "did you mean \"correction\"?"}},
-        BadStudy{"misspelt_precision",
-                 "/precision",
-                 "\"extend\"",
-                 "/precision",
-                 {"\"extend\"", "\"double\" or \"extended\"", "did you mean \"extended\"?"}},
-        BadStudy{
-            "unknown_start", "/start", "\"selfish\"", "/start", {"\"selfish\"", "allowed: \"reference\""}},
-        BadStudy{"empty_name", "/name", "\"\"", "/name", {"\"\"", "not empty"}}),
+    testing::Values(BadStudy{"misspelt_method",
+                             "/integrators/0/name",
+                             "\"bliedf2\"",
+                             "/integrators/0/name",
+                             {"unknown integrator \"bliedf2\"",
+                              "allowed: \"bliedf2nd\", \"generalized_alpha\" or \"faltinsen_bdf\"",
+                              "did you mean \"bliedf2nd\"?"}},
+                    BadStudy{"unknown_method",
+                             "/integrators/0/name",
+                             "\"rk4\"",
+                             "/integrators/0/name",
+                             {"unknown integrator \"rk4\"", "allowed: \"bliedf2nd\""}},
+                    BadStudy{"misspelt_problem",
+                             "/problems/0/name",
+                             "\"heavy-top\"",
+                             "/problems/0/name",
+                             {"unknown problem \"heavy-top\"", "did you mean \"heavy_top\"?"}},
+                    BadStudy{"misspelt_formulation",
+                             "/problems/0/formulation",
+                             "\"SO_3\"",
+                             "/problems/0/formulation",
+                             {"unknown formulation \"SO_3\"", "\"SO3\", \"S3\", \"R3xSO3\"",
+                              "did you mean \"SO3\"?"}},
+                    BadStudy{"formulation_in_list",
+                             "/problems/0/formulation",
+                             "[\"SO3\", \"SE2\"]",
+                             "/problems/0/formulation/1",
+                             {"\"SE2\"", "\"SE3\", \"S3|xR3\" or \"UDQ\""}},
+                    BadStudy{"misspelt_key",
+                             "/step_size",
+                             "[1]",
+                             "/step_size",
+                             {"unknown key \"step_size\"", "\"step_sizes\"", "did you mean \"step_sizes\"?"}},
+                    BadStudy{"misspelt_problem_key",
+                             "/problems/0/formulations",
+                             "\"SO3\"",
+                             "/problems/0/formulations",
+                             {"unknown key", "did you mean \"formulation\"?"}},
+                    BadStudy{"misspelt_parameter",
+                             "/problems/0/parameters",
+                             "{\"mas\": 3}",
+                             "/problems/0/parameters/mas",
+                             {"unknown key \"mas\"", "did you mean \"mass\"?"}},
+                    BadStudy{"parameter_key_with_slash",
+                             "/problems/0/parameters",
+                             "{\"a/b\": 3}",
+                             "/problems/0/parameters/a~1b",
+                             {"unknown key \"a/b\""}},
+                    BadStudy{"misspelt_option",
+                             "/integrators/0/correctio",
+                             "true",
+                             "/integrators/0/correctio",
+                             {"unknown key \"correctio\"", "did you mean \"correction\"?"}},
+                    BadStudy{"misspelt_precision",
+                             "/precision",
+                             "\"extend\"",
+                             "/precision",
+                             {"\"extend\"", "\"double\" or \"extended\"", "did you mean \"extended\"?"}},
+                    BadStudy{"unknown_start",
+                             "/start",
+                             "\"selfish\"",
+                             "/start",
+                             {"\"selfish\"", "\"self\" or \"reference\"", "did you mean \"self\"?"}},
+                    BadStudy{"empty_name", "/name", "\"\"", "/name", {"\"\"", "not empty"}}),
     [](const auto& info) { return info.param.law; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -212,16 +217,16 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Options, BadStudyIsRefused,
     testing::Values(
-        BadStudy{"k_too_large", "/integrators/0/k", "7", "/integrators/0/k", {"7", "an integer from 1 to 4"}},
-        BadStudy{"k_zero", "/integrators/0/k", "0", "/integrators/0/k", {"0", "an integer from 1 to 4"}},
+        BadStudy{"k_too_large", "/integrators/0/k", "7", "/integrators/0/k", {"7", "an integer from 1 to 6"}},
+        BadStudy{"k_zero", "/integrators/0/k", "0", "/integrators/0/k", {"0", "an integer from 1 to 6"}},
         BadStudy{
-            "k_negative", "/integrators/0/k", "-2", "/integrators/0/k", {"-2", "an integer from 1 to 4"}},
+            "k_negative", "/integrators/0/k", "-2", "/integrators/0/k", {"-2", "an integer from 1 to 6"}},
         BadStudy{
-            "k_fraction", "/integrators/0/k", "2.5", "/integrators/0/k", {"2.5", "an integer from 1 to 4"}},
+            "k_fraction", "/integrators/0/k", "2.5", "/integrators/0/k", {"2.5", "an integer from 1 to 6"}},
         BadStudy{
-            "k_text", "/integrators/0/k", "\"2\"", "/integrators/0/k", {"\"2\"", "an integer from 1 to 4"}},
+            "k_text", "/integrators/0/k", "\"2\"", "/integrators/0/k", {"\"2\"", "an integer from 1 to 6"}},
         BadStudy{
-            "k_null", "/integrators/0/k", "null", "/integrators/0/k", {"null", "an integer from 1 to 4"}},
+            "k_null", "/integrators/0/k", "null", "/integrators/0/k", {"null", "an integer from 1 to 6"}},
         BadStudy{"k_in_list", "/integrators/0/k", "[2, 3, 7]", "/integrators/0/k/2", {"7"}},
         BadStudy{"k_in_list_in_list", "/integrators/0/k", "[2, [3]]", "/integrators/0/k/1", {"[3]"}},
         BadStudy{"k_overflows_int", "/integrators/0/k", "4294967298", "/integrators/0/k", {"4294967298"}},
@@ -229,7 +234,52 @@ INSTANTIATE_TEST_SUITE_P(
                  "/integrators/0/correction",
                  "1",
                  "/integrators/0/correction",
-                 {"1 is not allowed", "true or false"}},
+                 {"1 is not allowed", "true, false or \"implicit\""}},
+        BadStudy{"correction_misspelt",
+                 "/integrators/0/correction",
+                 "\"implict\"",
+                 "/integrators/0/correction",
+                 {"\"implict\"", "true, false or \"implicit\"", "did you mean \"implicit\"?"}},
+        BadStudy{"faltinsen_k",
+                 "/integrators/0",
+                 R"({"name": "faltinsen_bdf", "k": 5})",
+                 "/integrators/0/k",
+                 {"5", "an integer from 1 to 4"}},
+        BadStudy{"faltinsen_variant",
+                 "/integrators/0",
+                 R"({"name": "faltinsen_bdf", "variant": "exakt"})",
+                 "/integrators/0/variant",
+                 {"\"exakt\"", "\"exact\" or \"bch\"", "did you mean \"exact\"?"}},
+        BadStudy{"faltinsen_correction",
+                 "/integrators/0",
+                 R"({"name": "faltinsen_bdf", "correction": true})",
+                 "/integrators/0/correction",
+                 {"unknown key \"correction\"", "\"variant\""}},
+        BadStudy{"rho_inf_too_large",
+                 "/integrators/0",
+                 R"({"name": "generalized_alpha", "rho_inf": 1.5})",
+                 "/integrators/0/rho_inf",
+                 {"1.5", "a number from 0 to 1"}},
+        BadStudy{"rho_inf_negative",
+                 "/integrators/0",
+                 R"({"name": "generalized_alpha", "rho_inf": -0.1})",
+                 "/integrators/0/rho_inf",
+                 {"-0.1", "a number from 0 to 1"}},
+        BadStudy{"rho_inf_null",
+                 "/integrators/0",
+                 R"({"name": "generalized_alpha", "rho_inf": null})",
+                 "/integrators/0/rho_inf",
+                 {"null", "a number from 0 to 1"}},
+        BadStudy{"modified_start_number",
+                 "/integrators/0/modified_start",
+                 "1",
+                 "/integrators/0/modified_start",
+                 {"1", "true or false"}},
+        BadStudy{"modified_start_of_the_stabilized_form",
+                 "/integrators/0",
+                 R"({"name": "bliedf2nd", "form": "stabilized_index2", "modified_start": true})",
+                 "/integrators/0/modified_start",
+                 {"has no effect", "\"form\": \"index3\""}},
         BadStudy{"form_unknown",
                  "/integrators/0/form",
                  "\"index2\"",
@@ -381,6 +431,43 @@ INSTANTIATE_TEST_SUITE_P(
         BadStudy{"precision_number", "/precision", "16", "/precision", {"16", "\"double\""}}),
     [](const auto& info) { return info.param.law; });
 
+TEST(Study, AFormIsRefusedWhereNoProblemHasConstraints) {
+  Json study = changed("/integrators/0/form", "\"stabilized_index2\"");
+  study["problems"][0]["formulation"] = {"SO3", "S3"};
+  try {
+    read_study(study);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.place(), "/integrators/0/form");
+    EXPECT_NE(std::string(error.what()).find("a formulation with constraints"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Study, OptionsThatMeanNothingForARunAreAbsentFromIt) {
+  Json study = changed("/integrators/0/form", R"(["index3", "stabilized_index2"])");
+  study["problems"][0]["formulation"] = {"SO3", "R3xSO3"};
+  std::vector<std::string> seen;
+  for (const RunSpec& run : runs(study))
+    seen.push_back(options_to_json(*run.method, run.request.options).dump());
+  EXPECT_EQ(seen, (std::vector<std::string>{
+                      R"({"k":3,"correction":true})",  // once, for the two forms that it has not
+                      R"({"k":3,"correction":true,"modified_start":false,"form":"index3"})",
+                      R"({"k":3,"correction":true,"form":"stabilized_index2"})"}));
+}
+
+TEST(Study, StartsByItselfUnlessToldOtherwise) {
+  const RunSpec own = only_run(changed("/start", ""));
+  EXPECT_EQ(own.request.start, Start::self);
+  // The transient phase of the index-3 form then keeps its order.
+  EXPECT_TRUE(own.request.options.boolean("modified_start"));
+  EXPECT_FALSE(only_run(base()).request.options.boolean("modified_start"));
+  Json study = changed("/start", "\"self\"");
+  study["integrators"][0]["modified_start"] = false;
+  EXPECT_FALSE(only_run(study).request.options.boolean("modified_start"));
+  EXPECT_NE(own.key(), only_run(base()).key());
+}
+
 TEST(Study, WhatIsNotAnObjectIsRefused) {
   for (const char* text : {"[]", "null", "\"study\"", "3", "{}"})
     EXPECT_THROW(read_study(parse_json(text, "test")), InputError) << text;
@@ -417,7 +504,7 @@ TEST(Study, TheStudiesOfTheFiguresAreValidByTheSchemaAndAccepted) {
       const std::string_view text = embedded_file(file);
       EXPECT_EQ(schema.violations(text), "") << file;
       const Study study = read_study(parse_json(text, std::string(file)));
-      EXPECT_EQ(study.name, figure.name) << file;
+      EXPECT_TRUE(study.name.starts_with(figure.name)) << file;
       EXPECT_FALSE(study.runs.empty()) << file;
     }
   }
@@ -517,7 +604,7 @@ TEST(StudyExpansion, LeavesNoParameterAndNoOptionToADefaultUnsaid) {
   for (const OptionInfo& info : run.method->options)
     EXPECT_TRUE(run.request.options.all().contains(info.name)) << info.name;
   EXPECT_EQ(run.precision, Precision::double_precision);
-  EXPECT_EQ(run.start, "reference");
+  EXPECT_EQ(run.request.start, Start::reference);
   EXPECT_EQ(run.t_0, 0.0);
 }
 
@@ -632,7 +719,7 @@ TEST(RunKey, IsTheSameForTheSameInputHoweverItIsWritten) {
   EXPECT_EQ(only_run(changed("/problems/0/parameters", "{\"mass\": 15}")).key(), key);
   EXPECT_EQ(only_run(changed("/problems/0/parameters", R"({"gravity": [0, 0, -9.81], "mass": 15.0})")).key(),
             key);
-  EXPECT_EQ(only_run(parse_json(R"({"t_end": 0.1, "step_sizes": [1e-2],
+  EXPECT_EQ(only_run(parse_json(R"({"t_end": 0.1, "step_sizes": [1e-2], "start": "reference",
                                     "integrators": [{"k": 3, "name": "bliedf2nd"}], "name": "test",
                                     "problems": [{"formulation": "R3xSO3", "name": "heavy_top"}]})",
                                 "test"))

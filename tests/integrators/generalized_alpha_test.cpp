@@ -7,16 +7,24 @@
 
 #include "groups/extended.h"
 #include "problems/heavy_top.h"
+#include "tests/integrators/shared_steppers.h"
 #include "tests/support/observed_order.h"
 #include "tests/support/small_systems.h"
 
 namespace liebench {
+
+template StepperMaker<GeneralizedAlpha, Rotation> make_stepper<GeneralizedAlpha, Rotation, NoAudit>;
+template StepperMaker<GeneralizedAlpha, Body> make_stepper<GeneralizedAlpha, Body, NoAudit>;
+
 namespace {
 
-using Rotation = HeavyTopSO3<Extended>;
-using Body = HeavyTopR3xSO3<Extended>;
-template <class S, Form form = Form::index3>
-using Stepper = GeneralizedAlpha::Stepper<S, form>;
+template <class S>
+using Stepper = GeneralizedAlpha::Stepper<S, Form::index3>;
+
+template <class S>
+Errors orders(const GeneralizedAlpha::Options& options) {
+  return observed_orders<GeneralizedAlpha, S>(options);
+}
 
 TEST(GeneralizedAlpha, ParametersAreThoseOfChungAndHulbert) {
   for (const double rho : {0.0, 0.3, 0.9, 1.0}) {
@@ -33,14 +41,14 @@ TEST(GeneralizedAlpha, ParametersAreThoseOfChungAndHulbert) {
 
 TEST(GeneralizedAlpha, HasOrderTwoWithoutConstraints) {
   for (const double rho : {0.0, 0.9, 1.0}) {
-    const Errors order = observed_orders<Stepper<Rotation>>(GeneralizedAlpha::Options{.rho_inf = rho});
+    const Errors order = orders<Rotation>({.rho_inf = rho});
     EXPECT_NEAR(order.q, 2, order_tolerance) << rho;
     EXPECT_NEAR(order.v, 2, order_tolerance) << rho;
   }
 }
 
 TEST(GeneralizedAlpha, LosesOneOrderOfLambdaInTheTransientPhase) {
-  const Errors order = observed_orders<Stepper<Body>>(GeneralizedAlpha::Options{});
+  const Errors order = orders<Body>({});
   EXPECT_NEAR(order.largest_q, 2, order_tolerance);
   EXPECT_NEAR(order.largest_v, 2, order_tolerance);
   EXPECT_NEAR(order.lambda, 2, order_tolerance);
@@ -48,7 +56,7 @@ TEST(GeneralizedAlpha, LosesOneOrderOfLambdaInTheTransientPhase) {
 }
 
 TEST(GeneralizedAlpha, KeepsTheOrderOfLambdaFromAPerturbedStartingVelocity) {
-  const Errors order = observed_orders<Stepper<Body>>(GeneralizedAlpha::Options{.modified_start = true});
+  const Errors order = orders<Body>({.modified_start = true});
   EXPECT_NEAR(order.largest_q, 2, order_tolerance);
   EXPECT_NEAR(order.largest_v, 2, order_tolerance);
   EXPECT_NEAR(order.lambda, 2, order_tolerance);
@@ -56,8 +64,7 @@ TEST(GeneralizedAlpha, KeepsTheOrderOfLambdaFromAPerturbedStartingVelocity) {
 }
 
 TEST(GeneralizedAlpha, HasOrderTwoEverywhereInTheStabilizedForm) {
-  const Errors order = observed_orders<Stepper<Body, Form::stabilized_index2>>(
-      GeneralizedAlpha::Options{.form = Form::stabilized_index2});
+  const Errors order = orders<Body>({.form = Form::stabilized_index2});
   EXPECT_NEAR(order.largest_q, 2, order_tolerance);
   EXPECT_NEAR(order.largest_v, 2, order_tolerance);
   EXPECT_NEAR(order.largest_lambda, 2, order_tolerance);

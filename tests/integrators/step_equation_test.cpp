@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "integrators/affine_closure.h"
 #include "integrators/bdf_coefficients.h"
 #include "problems/heavy_top.h"
 #include "tests/support/heavy_top_samples.h"
@@ -20,7 +21,7 @@ using Body = HeavyTopR3xSO3<double>;
 template <class S>
 AffineClosure<S> closure_in(const AffineClosure<typename S::template rebind<double>>& c) {
   using T = typename S::Scalar;
-  return {.base = c.base.template cast<T>(),
+  return {.base_increment = c.base_increment.template cast<T>(),
           .velocity = c.velocity.template cast<T>(),
           .velocity_slope = T(c.velocity_slope),
           .velocity_change = c.velocity_change.template cast<T>(),
@@ -42,7 +43,7 @@ struct Sample {
     constexpr int m = S::Group::dimension;
     q = S::Group::compose(system.initial_configuration(), S::Group::exp(random.vector<m>()));
     const double rate = 0.3 / h;
-    closure = {.base = rate * random.vector<m>(),
+    closure = {.base_increment = rate * random.vector<m>(),
                .velocity = rate * random.vector<m>(),
                .velocity_slope = 1.5,
                .velocity_change = rate * random.vector<m>(),
@@ -51,6 +52,14 @@ struct Sample {
     z = rate * random.vector<n>();
   }
 };
+
+template <class Equation, class System, class Closure>
+typename Equation::Point evaluated(const System& system, const Configuration<System>& q_n, double h,
+                                   const Closure& closure, const typename Equation::Unknowns& z) {
+  typename Equation::Point point;
+  Equation::evaluate(system, h, q_n, closure, z, point);
+  return point;
+}
 
 // The Newton matrix is the derivative of the residual as a function of the unknowns: by Jets.
 template <Form form, class S>
@@ -64,14 +73,15 @@ void expect_jacobian_is_the_derivative(const S& system, double h) {
   typename JetEquation::Unknowns z;
   for (int i = 0; i < n; ++i) z(i) = Jet(s.z(i), i);
   const JetSystem jet_system = system.template cast<Jet>();
-  const auto jet_origin = JetEquation::origin(jet_system, S::Group::template cast<Jet>(s.q));
-  const auto point = JetEquation::point(jet_origin, Jet(h), closure_in<JetSystem>(s.closure), z);
-  const auto r = JetEquation::residual(jet_system, Jet(0.0), Jet(h), point, z);
+  typename JetEquation::Point point;
+  JetEquation::evaluate(jet_system, Jet(h), S::Group::template cast<Jet>(s.q),
+                        closure_in<JetSystem>(s.closure), z, point);
+  typename JetEquation::Unknowns r;
+  JetEquation::residual(jet_system, Jet(0.0), Jet(h), point, z, r);
 
   Eigen::Matrix<double, n, n> J;
-  const auto origin = Equation::origin(system, s.q);
-  Equation::jacobian(system, 0.0, h, origin, Equation::point(origin, h, s.closure, s.z), s.z,
-                     s.closure.velocity_derivative(), s.closure.scaled_acceleration_derivative(), J);
+  Equation::jacobian(system, 0.0, h, s.q, evaluated<Equation>(system, s.q, h, s.closure, s.z), s.z,
+                     s.closure.linearization(s.z.template head<Equation::m>()), J);
   Eigen::Matrix<double, n, n> expected;
   for (int i = 0; i < n; ++i) expected.row(i) = r(i).v.transpose();
   // Entries are sums of fewer than ten products of entries as large as those of the matrix, and of h^2 K
@@ -92,29 +102,31 @@ TEST(StepEquation, JacobianIsTheDerivativeOfTheResidual) {
 TEST(StepEquation, PointIsTheClosureOfTheIncrement) {
   const Body system(unsymmetric_top(1));
   const Sample<Body> s(system, 0.1);
-  const auto point = StepEquation<Body>::point(StepEquation<Body>::origin(system, s.q), s.h, s.closure, s.z);
+  const auto point = evaluated<StepEquation<Body>>(system, s.q, s.h, s.closure, s.z);
   const Velocity<Body> d = s.z.head<6>();
   // Dq = base + d,  v = v_n + slope d + change,  h v' = slope d + offset.
-  const Velocity<Body> turn = s.h * (s.closure.base + d);
+  const Velocity<Body> turn = s.h * (s.closure.base_increment + d);
   const Velocity<Body> v = s.closure.velocity + 1.5 * d + s.closure.velocity_change;
   const Velocity<Body> scaled_acceleration = 2.25 * d + s.closure.scaled_acceleration;
   EXPECT_LE((point.step - turn).norm(), 1e-15);
   EXPECT_LE(Body::Group::separation(Body::Group::compose(s.q, Body::Group::exp(turn)), point.q).norm(),
             1e-15);
-  EXPECT_LE((point.v - v).norm(), 1e-14 * v.norm());
-  EXPECT_LE((point.scaled_acceleration - scaled_acceleration).norm(), 1e-14 * scaled_acceleration.norm());
+  EXPECT_LE((point.values.velocity - v).norm(), 1e-14 * v.norm());
+  EXPECT_LE((point.values.scaled_acceleration - scaled_acceleration).norm(),
+            1e-14 * scaled_acceleration.norm());
 }
 
 TEST(StepEquation, ResidualIsScaledByTheStepSize) {
   // (h r, Phi / h) with r = M v' + g + B^T lambda.
   const Body system(unsymmetric_top(2));
   const Sample<Body> s(system, 0.01);
-  const auto point = StepEquation<Body>::point(StepEquation<Body>::origin(system, s.q), s.h, s.closure, s.z);
-  const auto r = StepEquation<Body>::residual(system, 0.0, s.h, point, s.z);
-  const Velocity<Body> acceleration = point.scaled_acceleration / s.h;
+  const auto point = evaluated<StepEquation<Body>>(system, s.q, s.h, s.closure, s.z);
+  StepEquation<Body>::Unknowns r;
+  StepEquation<Body>::residual(system, 0.0, s.h, point, s.z, r);
+  const Velocity<Body> acceleration = point.values.scaled_acceleration / s.h;
   const Multipliers<Body> lambda = s.z.tail<3>() / s.h;
   const Velocity<Body> load = system.mass_matrix(point.q) * acceleration +
-                              system.force(0.0, point.q, point.v) +
+                              system.force(0.0, point.q, point.values.velocity) +
                               system.constraint_gradient(point.q).transpose() * lambda;
   EXPECT_LE((r.head<6>() - s.h * load).norm(),
             1e-14 * s.h * (load.norm() + acceleration.norm() + lambda.norm()));
@@ -127,10 +139,10 @@ TEST(StepEquation, ResidualIsScaledByTheStepSize) {
 template <int k>
 double condition(double h) {
   const Body system{HeavyTopParameters{}};
-  const auto c = bdf_coefficients<k, double>();
+  const auto c = bdf_coefficients<double>(k);
   const auto q = system.initial_configuration();
   const auto v = system.initial_velocity();
-  const AffineClosure<Body> closure{.base = v,
+  const AffineClosure<Body> closure{.base_increment = v,
                                     .velocity = v,
                                     .velocity_slope = c.gamma[0],
                                     .velocity_change = Velocity<Body>::Zero(),
@@ -139,9 +151,8 @@ double condition(double h) {
   Eigen::Matrix<double, 9, 1> z;
   z << Velocity<Body>::Zero(), Eigen::Vector3d(0, -319.5 * h, -317.3 * h);
   Eigen::Matrix<double, 9, 9> J;
-  const auto origin = StepEquation<Body>::origin(system, q);
-  StepEquation<Body>::jacobian(system, 0.0, h, origin, StepEquation<Body>::point(origin, h, closure, z), z,
-                               closure.velocity_derivative(), closure.scaled_acceleration_derivative(), J);
+  StepEquation<Body>::jacobian(system, 0.0, h, q, evaluated<StepEquation<Body>>(system, q, h, closure, z), z,
+                               closure.linearization(Velocity<Body>::Zero()), J);
   const Eigen::JacobiSVD<Eigen::Matrix<double, 9, 9>> svd(J);
   return svd.singularValues()(0) / svd.singularValues()(8);
 }

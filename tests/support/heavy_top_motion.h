@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -33,30 +31,28 @@ class HeavyTopMotion {
   };
 
   // From t = 0 up to `end` [s] at least; `refinement` shortens the pieces.
-  HeavyTopMotion(const HeavyTopParameters& parameters, double end, double refinement = 1.0)
-      : parameters_(parameters), system_(parameters), data_(parameters) {
-    const double speed = to_double(data_.omega0.norm());
-    width_ = 1.0 / ((8.0 + 4.0 * speed) * refinement);
-    State state{data_.R0, data_.omega0, data_.omega0};
-    for (int i = 0; i * width_ <= end; ++i) {
-      pieces_.push_back(expand(state.R, state.omega));
-      state = evaluate(pieces_.back(), Extended(width_));
+  HeavyTopMotion(const HeavyTopParameters& parameters, double end, double refinement = 1.0);
+
+  State at(const Extended& t) const;
+
+  // The same as a point of the solution of `system`, this top in any formulation and any scalar that is rounded from
+  // Extended.
+  template <MechanicalSystem S>
+  SolutionPoint<S> point(const S& system, const Extended& t) const {
+    if constexpr (std::same_as<typename S::Scalar, Extended>) {
+      return point_of<S>(system, t);
+    } else {
+      return point_of<S>(typename S::template rebind<Extended>(parameters_), t);
     }
   }
 
-  State at(const Extended& t) const {
-    const auto last = pieces_.size() - 1;
-    const auto piece = std::min(last, std::size_t(std::max(0.0, to_double(t) / width_)));
-    return evaluate(pieces_[piece], t - Extended(double(piece)) * width_);
-  }
+  // Kinetic plus potential energy [J].
+  Extended energy(const State& s) const;
 
-  // The same as a point of the solution of `system`, a heavy top in any formulation and scalar that
-  // is rounded from Extended.
-  template <MechanicalSystem S>
-  SolutionPoint<S> point(const S&, const Extended& t) const {
+ private:
+  template <MechanicalSystem S, MechanicalSystem E>
+  SolutionPoint<S> point_of(const E& system, const Extended& t) const {
     using T = typename S::Scalar;
-    using E = typename S::template rebind<Extended>;
-    const E system = E(parameters_);
     const State s = at(t);
     const auto rounded = [](const auto& v) { return v.template cast<T>().eval(); };
     SolutionPoint<S> p;
@@ -72,46 +68,14 @@ class HeavyTopMotion {
     return p;
   }
 
-  // Kinetic plus potential energy [J].
-  Extended energy(const State& s) const { return system_.energy(s.R, s.omega); }
-
- private:
   static constexpr std::size_t degree = 32;
   struct Piece {
     std::array<Matrix, degree + 1> R;
     std::array<Vector, degree + 1> omega;
   };
 
-  Piece expand(const Matrix& R, const Vector& omega) const {
-    const Matrix J = data_.inertia_about_tip();
-    const Matrix inverse = J.inverse();
-    const Vector weight = data_.gravity * data_.mass;
-    Piece p;
-    p.R[0] = R;
-    p.omega[0] = omega;
-    for (std::size_t j = 0; j < degree; ++j) {
-      Matrix spin = Matrix::Constant(Extended(0.0));
-      Vector moment = data_.center_of_mass.cross(p.R[j].transpose() * weight);
-      for (std::size_t i = 0; i <= j; ++i) {
-        spin += p.R[i] * skew(p.omega[j - i]);
-        moment += (J * p.omega[i]).cross(p.omega[j - i]);
-      }
-      const Extended factor = Extended(1.0) / Extended(double(j + 1));
-      p.R[j + 1] = spin * factor;
-      p.omega[j + 1] = inverse * moment * factor;
-    }
-    return p;
-  }
-
-  static State evaluate(const Piece& p, const Extended& s) {
-    State state{p.R[degree], p.omega[degree], p.omega[degree] * Extended(double(degree))};
-    for (std::size_t j = degree; j-- > 0;) {
-      state.R = state.R * s + p.R[j];
-      state.omega = state.omega * s + p.omega[j];
-      if (j > 0) state.omega_dot = state.omega_dot * s + p.omega[j] * Extended(double(j));
-    }
-    return state;
-  }
+  Piece expand(const Matrix& R, const Vector& omega) const;
+  static State evaluate(const Piece& p, const Extended& s);
 
   HeavyTopParameters parameters_;
   HeavyTopSO3<Extended> system_;

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include "integrators/outcome.h"
+#include "integrators/self_start.h"
 #include "integrators/starting_values.h"
+#include "tests/support/any_stepper.h"
 #include "tests/support/heavy_top_motion.h"
 #include "tests/support/heavy_top_samples.h"
 
@@ -21,26 +23,34 @@ struct Errors {
   double largest_q = 0, largest_v = 0, largest_lambda = 0;  // over all steps
 };
 
-template <class Stepper>
-std::array<SolutionPoint<typename Stepper::System>, Stepper::starting_points> exact_starting_points(
-    const typename Stepper::System& system, const HeavyTopMotion& motion, const typename Stepper::T& h) {
-  std::array<SolutionPoint<typename Stepper::System>, Stepper::starting_points> points;
-  for (std::size_t j = 0; j < points.size(); ++j) points[j] = motion.point(system, Extended(h) * double(j));
+// Points of the motion at 0, h, 2 h, ..., as many as the stepper starts from.
+template <MechanicalSystem S>
+std::vector<SolutionPoint<S>> exact_starting_points(const S& system, const HeavyTopMotion& motion,
+                                                    const typename S::Scalar& h, int count) {
+  std::vector<SolutionPoint<S>> points;
+  for (int j = 0; j < count; ++j) points.push_back(motion.point(system, Extended(h) * double(j)));
   return points;
 }
 
-template <class Stepper, class Options>
-Errors errors_at(double end, int steps, const HeavyTopMotion& motion, const HeavyTopParameters& p,
-                 const Options& options) {
-  using S = typename Stepper::System;
-  using T = typename Stepper::T;
-  const S system(p);
+// From exact points, or from the method's own starting procedure.
+enum class Start { reference, self };
+
+template <MechanicalSystem S>
+Errors errors_at(double end, int steps, const HeavyTopMotion& motion, const S& system, AnyStepper<S>& stepper,
+                 Start start) {
+  using T = typename S::Scalar;
   const T h = T(end) / T(double(steps));
-  Stepper stepper(system, options);
-  EXPECT_EQ(stepper.start(h, exact_starting_points<Stepper>(system, motion, h)).outcome, Outcome::ok);
+  auto points = exact_starting_points(system, motion, h, stepper.starting_points());
+  if (start == Start::self) {
+    NoAudit audit;
+    EXPECT_EQ(self_start<S>(system, T(0.0), h, points, audit).outcome, Outcome::ok);
+  }
+  EXPECT_EQ(stepper.start(h, points).outcome, Outcome::ok);
   Errors e;
-  for (int n = Stepper::steps; n <= steps; ++n) {
-    EXPECT_EQ(stepper.step().outcome, Outcome::ok) << n;
+  for (int n = stepper.steps(); n <= steps; ++n) {
+    const Outcome outcome = stepper.step().outcome;
+    EXPECT_EQ(outcome, Outcome::ok) << n;
+    if (outcome != Outcome::ok) break;
     if (S::constraints == 0 && n < steps) continue;
     const auto exact = motion.point(system, Extended(h) * double(n));
     e.q = S::Group::separation(exact.q, stepper.configuration()).norm();
@@ -58,14 +68,17 @@ Errors errors_at(double end, int steps, const HeavyTopMotion& motion, const Heav
 // 0.1 of p for c up to 285 /s = 65 |Omega|. (The largest seen, in lambda of BLieDF2nd without L_k, is 40 |Omega|.)
 inline constexpr double order_tolerance = 0.1;
 
-template <class Stepper, class Options>
-Errors observed_orders(const Options& options) {
+template <class Method, MechanicalSystem S>
+Errors observed_orders(const typename Method::Options& options, Start start = Start::reference) {
   constexpr double end = 0.5;
   constexpr int steps = 1024;
   const HeavyTopParameters p = slow_top();
+  const S system(p);
   static const HeavyTopMotion motion(p, 0.6);
-  const Errors coarse = errors_at<Stepper>(end, steps, motion, p, options);
-  const Errors fine = errors_at<Stepper>(end, 2 * steps, motion, p, options);
+  const auto errors = [&](int n) {
+    return errors_at<S>(end, n, motion, system, *make_stepper<Method, S>(options, system), start);
+  };
+  const Errors coarse = errors(steps), fine = errors(2 * steps);
   const auto order = [&](double Errors::*error) { return std::log2(coarse.*error / fine.*error); };
   return {order(&Errors::q),         order(&Errors::v),         order(&Errors::lambda),
           order(&Errors::largest_q), order(&Errors::largest_v), order(&Errors::largest_lambda)};

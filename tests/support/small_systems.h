@@ -67,7 +67,8 @@ class Oscillators {
 };
 
 // A particle of mass m in the plane, q = (x, y), without gravity, under a law that a test chooses: the law
-// has `constraints` and static functions phi(q), gradient(q), force(q).
+// has `constraints` and static functions force(q) and, where it has constraints, phi(q), gradient(q) and
+// gradient_derivative(q, v).
 template <Scalar T, template <class> class Law>
 class Particle {
  public:
@@ -108,8 +109,12 @@ class Particle {
   Vector constraint_force(const Vector& q, const Lambda& lambda) const requires(constraints > 0) {
     return Law<T>::gradient(q).transpose() * lambda;
   }
-  Lambda constraint_curvature(const Vector&, const Vector&) const requires(constraints > 0) {
-    return Lambda::Constant(T(0.0));
+  Lambda constraint_curvature(const Vector& q, const Vector& v) const requires(constraints > 0) {
+    return constraint_gradient_derivative(q, v) * v;
+  }
+  Eigen::Matrix<T, constraints, 2> constraint_gradient_derivative(const Vector& q, const Vector& v) const
+      requires(constraints > 0) {
+    return Law<T>::gradient_derivative(q, v);
   }
 
  private:
@@ -127,6 +132,9 @@ struct RedundantConstraint {
     B << T(1.0), T(0.0), T(1.0), T(0.0);
     return B;
   }
+  static Eigen::Matrix<T, 2, 2> gradient_derivative(const Vector&, const Vector&) {
+    return Eigen::Matrix<T, 2, 2>::Constant(T(0.0));
+  }
   static Vector force(const Vector&) { return Vector::Constant(T(0.0)); }
 };
 
@@ -137,6 +145,9 @@ struct ImpossibleConstraint {
   using Vector = Eigen::Matrix<T, 2, 1>;
   static Eigen::Matrix<T, 1, 1> phi(const Vector& q) { return Eigen::Matrix<T, 1, 1>(T(1.0) + q(0) * q(0)); }
   static Eigen::Matrix<T, 1, 2> gradient(const Vector& q) { return {T(2.0) * q(0), T(0.0)}; }
+  static Eigen::Matrix<T, 1, 2> gradient_derivative(const Vector&, const Vector& v) {
+    return {T(2.0) * v(0), T(0.0)};
+  }
   static Vector force(const Vector&) { return Vector::Constant(T(0.0)); }
 };
 

@@ -1,0 +1,129 @@
+#include "harness/formulations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "harness/order_matrix.h"
+#include "harness/select.h"
+#include "harness/step_operations.h"
+#include "harness/table.h"
+
+namespace liebench {
+
+namespace {
+
+const Quantity quantity{"q", "max_absolute"};
+constexpr double common_step = 1e-3;   // s
+constexpr double common_error = 1e-3;  // m, rad
+
+std::string form_word(const Json& record) {
+  const Json& options = record.at("options");
+  return options.contains("form") ? options.at("form").get<std::string>() : "";
+}
+
+// One value for each method (row) and formulation (column).
+using Values = std::map<std::string, std::map<std::string, double>>;
+
+// The least of each row in bold, and where another is within a percent of it, both.
+std::string to_table(const std::vector<std::string>& methods, const std::vector<std::string>& formulations,
+                     const Values& values) {
+  std::vector<Column> columns{{.header = "method"}};
+  for (const std::string& formulation : formulations)
+    columns.push_back({.header = formulation, .alignment = Alignment::right});
+  Table table("", columns);
+  for (const std::string& method : methods) {
+    const auto& line = values.at(method);
+    double least = INFINITY;
+    for (const auto& entry : line) least = std::min(least, entry.second);
+    Row row{method};
+    for (const std::string& formulation : formulations) {
+      const auto value = line.find(formulation);
+      if (value == line.end())
+        row.push_back(std::string("not reached"));
+      else
+        row.push_back(value->second <= 1.01 * least ? fmt::format("**{:.2e}**", value->second)
+                                                    : fmt::format("{:.2e}", value->second));
+    }
+    table.add_row(std::move(row));
+  }
+  return to_markdown(table);
+}
+
+}  // namespace
+
+double operations_of_run(const Json& record) {
+  const StepOperations price =
+      step_operations(record.at("formulation").get<std::string>(), form_word(record));
+  const Json& cost = record.at("cost");
+  const auto count = [&](const char* key) { return cost.at(key).get<double>(); };
+  return count("residuals") * double(price.residual.total()) +
+         count("jacobians") * double(price.jacobian.total()) +
+         count("factorizations") * double(price.factorization.total()) +
+         count("solves") * double(price.solve.total());
+}
+
+std::optional<double> cost_at(const std::vector<CostPoint>& points, double target) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& [cost, error] = points[i];
+    if (!(error <= target)) continue;
+    if (i == 0 || !(points[i - 1].error > error)) return cost;
+    const CostPoint& before = points[i - 1];
+    const double part = std::log(before.error / target) / std::log(before.error / error);
+    return before.cost * std::pow(cost / before.cost, part);
+  }
+  return std::nullopt;
+}
+
+std::string formulations_report(const std::vector<Json>& records) {
+  struct Group {
+    std::vector<std::string> methods, formulations;
+    Values errors, operations;
+  };
+  const std::vector<std::pair<std::string, std::string>> titles{
+      {"", "Unconstrained"}, {"index3", "Index 3"}, {"stabilized_index2", "Stabilized index 2"}};
+  std::map<std::string, Group> groups;
+  for (const Curve& curve : curves(records)) {
+    Group& group = groups[form_word(*curve.records.front())];
+    const std::string formulation = curve.identity.at("formulation").get<std::string>();
+    const std::string method = method_name(curve.identity);
+    const auto remember = [](std::vector<std::string>& list, const std::string& name) {
+      if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
+    };
+    remember(group.methods, method);
+    remember(group.formulations, formulation);
+    group.errors[method];
+    group.operations[method];
+    std::vector<CostPoint> points;
+    for (const Json* record : curve.records) {
+      const auto error = error_of(*record, quantity);
+      if (!error) continue;
+      points.push_back({operations_of_run(*record), *error});
+      if (std::abs(record->at("requested_step_size").get<double>() - common_step) < 1e-9)
+        group.errors[method][formulation] = *error;
+    }
+    if (const auto cost = cost_at(points, common_error)) group.operations[method][formulation] = *cost;
+  }
+  std::string text = fmt::format(
+      "# The formulations of the heavy top\n\n"
+      "Written by `liebench figures`; do not edit. The fast top over 2 s in double precision, every method "
+      "from its own "
+      "start. \"Error\" is the largest error of q over the run, of position [m] and rotation [rad], whatever "
+      "stands for "
+      "them. \"Operations\" are floating point operations of the step equation (residuals, Newton matrices, "
+      "factorizations, back-substitutions; see [studies](studies.md)), start included. The least of a row is "
+      "bold.\n");
+  for (const auto& [form, title] : titles) {
+    const auto group = groups.find(form);
+    if (group == groups.end()) continue;
+    text += fmt::format(
+        "\n## {}\n\nError at equal step, h = {} s:\n\n{}\nOperations for an error of {}:\n\n{}", title,
+        common_step, to_table(group->second.methods, group->second.formulations, group->second.errors),
+        common_error, to_table(group->second.methods, group->second.formulations, group->second.operations));
+  }
+  return text;
+}
+
+}  // namespace liebench

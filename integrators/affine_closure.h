@@ -1,0 +1,62 @@
+#pragma once
+
+#include "problems/system.h"
+
+// A closure is what a method adds to the step equation: v and h v' at the new point as functions of the change
+// d = Dq_n - base of the increment. Every closure gives
+//
+//   base()             the increment at d = 0
+//   increment(d)       Dq_n = base() + d
+//   at(d)              ClosureValues: v_{n+1} - v_n, v_{n+1}, h v'_{n+1}
+//   linearization(d)   ClosureDerivatives of v and h v' with respect to d, in double (so is the Newton matrix)
+
+namespace liebench {
+
+template <MechanicalSystem S>
+struct ClosureValues {
+  Velocity<S> velocity_change;  // v_{n+1} - v_n
+  Velocity<S> velocity;
+  Velocity<S> scaled_acceleration;  // h v'_{n+1}
+};
+
+// Derivative: a number where it is a multiple of the identity, else an m x m matrix.
+template <class Derivative>
+struct ClosureDerivatives {
+  Derivative velocity;
+  Derivative scaled_acceleration;
+};
+
+// The matrix of a derivative.
+template <MechanicalSystem S>
+using DerivativeMatrix = Eigen::Matrix<double, S::Group::dimension, S::Group::dimension>;
+
+// Closure of the methods whose v and v' are affine in the increment:
+//
+//   Dq = base_increment + d
+//   v = v_n + velocity_slope d + velocity_change
+//   h v' = acceleration_slope d + scaled_acceleration
+template <MechanicalSystem S>
+struct AffineClosure {
+  using T = typename S::Scalar;
+  Velocity<S> base_increment;
+  Velocity<S> velocity;  // v_n
+  T velocity_slope;
+  Velocity<S> velocity_change;
+  T acceleration_slope;
+  Velocity<S> scaled_acceleration;
+
+  const Velocity<S>& base() const { return base_increment; }
+  Velocity<S> increment(const Velocity<S>& d) const { return base_increment + d; }
+  ClosureValues<S> at(const Velocity<S>& d) const {
+    ClosureValues<S> values;
+    values.velocity_change = velocity_slope * d + velocity_change;
+    values.velocity = velocity + values.velocity_change;
+    values.scaled_acceleration = acceleration_slope * d + scaled_acceleration;
+    return values;
+  }
+  ClosureDerivatives<double> linearization(const Velocity<S>&) const {
+    return {to_double(velocity_slope), to_double(acceleration_slope)};
+  }
+};
+
+}  // namespace liebench

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <numbers>
+
+#include "integrators/audit.h"
+#include "integrators/form.h"
+#include "integrators/newton.h"
+#include "integrators/outcome.h"
+#include "problems/system.h"
+
+namespace liebench {
+
+// What every implicit method does alike: it holds the state at t_n, solves the step equation from the prediction of the
+// method, and moves to t_{n+1}. Nothing is allocated.
+//
+// A stepper adds
+//   steps()            the index of the first point that it computes
+//   starting_points()  how many solution points start() takes, at most most_starting_points
+//   start(h, points)  from t_0, t_0 + h, ...
+//   step()            t_n -> t_{n+1}
+inline constexpr int most_starting_points = 7;
+
+template <MechanicalSystem S, Form form, class Audit>
+class BasicStepper {
+ public:
+  using System = S;
+  using T = typename S::Scalar;
+  using Group = typename S::Group;
+
+  const T& time() const { return t_; }
+  const Configuration<S>& configuration() const { return q_; }
+  const Velocity<S>& velocity() const { return velocity_; }
+  const Multipliers<S>& multipliers() const { return lambda_; }
+  const S& system() const { return newton_.system(); }
+  const Audit& audit() const { return newton_.audit(); }
+  Audit& audit() { return newton_.audit(); }
+
+ protected:
+  using Kernel = NewtonKernel<S, form, Audit>;
+  using Point = typename Kernel::Point;
+  static constexpr int m = Group::dimension;
+  static constexpr int l = S::constraints;
+  static constexpr bool stabilized = Kernel::Equation::stabilized;
+
+  explicit BasicStepper(const S& system) : newton_(system) {
+    velocity_.setConstant(T(0.0));
+    lambda_.setConstant(T(0.0));
+  }
+
+  // Solves the step equation and moves to its solution. `scaled_lambda` is the prediction of h lambda_{n+1}, and its
+  // value afterwards; `change` the same of d = Dq_n - base, without B^T eta.
+  template <class Closure>
+  StepResult advance(const Closure& closure, Velocity<S>& change, Multipliers<S>& scaled_lambda,
+                     Point& point) {
+    typename Kernel::Unknowns z;
+    z.template head<m>() = change;
+    if constexpr (l > 0) z.template segment<l>(m) = scaled_lambda;
+    if constexpr (stabilized) z.template tail<l>().setConstant(T(0.0));
+    const T t = t_ + h_;
+    const StepResult result = newton_.solve(t, h_, q_, closure, z, point);
+    if (result.outcome != Outcome::ok) return result;
+    if (!turns_by_less_than_pi(point.step)) return {Outcome::rotation_too_large};
+    t_ = t;
+    q_ = point.q;
+    velocity_ = point.values.velocity;
+    change = z.template head<m>();
+    if constexpr (l > 0) {
+      scaled_lambda = z.template segment<l>(m);
+      lambda_ = scaled_lambda / h_;
+    }
+    return result;
+  }
+
+  // False for a NaN, too.
+  static bool turns_by_less_than_pi(const Velocity<S>& v) {
+    return to_double(Group::rotation_angle(v)) < std::numbers::pi;
+  }
+
+  Kernel newton_;
+  T h_ = T(0.0);
+  T t_ = T(0.0);
+  Configuration<S> q_ = Group::identity();
+  Velocity<S> velocity_;   // v_n
+  Multipliers<S> lambda_;  // lambda_n
+};
+
+}  // namespace liebench

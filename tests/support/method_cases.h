@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "integrators/list.h"
+#include "integrators/option.h"
+#include "tests/support/any_stepper.h"
+
+// Every integrator of the program in every combination of its options, for laws that hold for all of them. A new method
+// joins by its line in integrators/list.h.
+
+namespace liebench {
+
+// What a test tries of one option: all integers, all words, both booleans; of a real its ends and its default.
+inline std::vector<OptionValue> values_to_try(const OptionInfo& option) {
+  std::vector<OptionValue> values;
+  switch (option.kind) {
+    case OptionKind::integer:
+      for (int i = int(option.least); i <= int(option.most); ++i) values.emplace_back(i);
+      break;
+    case OptionKind::real:
+      for (const double x : {option.fallback, option.least, option.most}) values.emplace_back(x);
+      break;
+    case OptionKind::boolean:
+    case OptionKind::boolean_or_choice:
+      for (const bool x : {false, true}) values.emplace_back(x);
+      break;
+    case OptionKind::choice:
+      break;
+  }
+  for (const std::string_view word : option.choices)
+    if (!word.empty()) values.emplace_back(std::string(word));
+  return values;
+}
+
+template <class Method>
+std::vector<OptionValues> option_combinations(bool constrained) {
+  std::vector<OptionValues> all{{}};
+  for (const OptionInfo& option : Method::option_list) {
+    if (option.scope != OptionScope::everywhere && !constrained) continue;
+    std::vector<OptionValues> longer;
+    for (const OptionValues& values : all)
+      for (const OptionValue& value : values_to_try(option)) {
+        longer.push_back(values);
+        longer.back().set(option.name, value);
+      }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+inline std::string to_text(const OptionValue& value) {
+  struct Text {
+    std::string operator()(int x) const { return std::to_string(x); }
+    std::string operator()(double x) const { return std::to_string(x); }
+    std::string operator()(bool x) const { return x ? "true" : "false"; }
+    std::string operator()(const std::string& x) const { return x; }
+  };
+  return std::visit(Text{}, value);
+}
+
+// One method with one combination of options.
+template <MechanicalSystem S>
+struct MethodCase {
+  std::string_view method;
+  OptionValues options;
+  std::function<std::unique_ptr<AnyStepper<S>>(const S&)> stepper;
+
+  std::string text() const {
+    std::string s(method);
+    for (const auto& [name, value] : options.all()) s += ", " + name + " = " + to_text(value);
+    return s;
+  }
+};
+
+template <class Method, MechanicalSystem S, class Audit = NoAudit>
+std::vector<MethodCase<S>> cases_of() {
+  std::vector<MethodCase<S>> cases;
+  for (const OptionValues& values : option_combinations<Method>(S::constraints > 0))
+    cases.push_back({Method::name, values, [options = Method::options(values)](const S& system) {
+                       return make_stepper<Method, S, Audit>(options, system);
+                     }});
+  return cases;
+}
+
+template <MechanicalSystem S, class Audit, class... Methods>
+std::vector<MethodCase<S>> cases_of_all(IntegratorList<Methods...>) {
+  std::vector<MethodCase<S>> all;
+  const auto append = [&](const std::vector<MethodCase<S>>& cases) {
+    all.insert(all.end(), cases.begin(), cases.end());
+  };
+  (append(cases_of<Methods, S, Audit>()), ...);
+  return all;
+}
+
+template <MechanicalSystem S, class Audit = NoAudit>
+std::vector<MethodCase<S>> every_method() {
+  return cases_of_all<S, Audit>(Integrators{});
+}
+
+}  // namespace liebench
