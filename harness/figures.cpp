@@ -212,7 +212,7 @@ Figure correction_stability_figure(const std::vector<Json>& records) {
       const double bound = correction_stability_bound(k, implicit, largest_angle);
       if (bound < largest_angle)
         panel.lines.push_back(
-            {bound, fmt::format("bound {:.3g}, {}", bound, implicit ? "implicit" : "explicit"), style});
+            {bound, fmt::format("{} {:.3g}", implicit ? "implicit" : "explicit", bound), style});
     }
     for (Series& series : panel.series) {
       for (Point& point : series.points) point.x *= initial_speed(records);

@@ -194,7 +194,7 @@ std::string panel_commands(const Layout& layout, const Panel& panel, const Panel
         "set arrow {0} from first {1}, graph 0 to first {1}, graph 1 nohead front lc rgb '{2}' lw 1 dt 3\n"
         "set label {0} {3} at first {1}, graph {5} rotate by 90 left offset character -0.8,0 tc rgb '{2}' "
         "font ',{4}' front\n",
-        tag, line.x, colour, gnuplot_literal(line.text), order_font_size, i % 2 == 0 ? 0.03 : 0.5);
+        tag, line.x, colour, gnuplot_literal(line.text), order_font_size, i % 2 == 0 ? 0.03 : 0.36);
   }
   if (curves.empty()) {
     ++tag;
