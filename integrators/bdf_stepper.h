@@ -10,6 +10,7 @@
 #include "integrators/bdf_coefficients.h"
 #include "integrators/consistent_projection.h"
 #include "integrators/history.h"
+#include "integrators/inlining.h"
 #include "integrators/starting_values.h"
 
 // The k-step BDF methods in increment form on a Lie group,
@@ -125,7 +126,7 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
 
   // t_n -> t_{n+1}
   StepResult step() {
-    if constexpr (std::is_same_v<T, double>) {
+    if constexpr (inlines_all<T>) {
       return step_inlined();
     } else {
       return take_step();

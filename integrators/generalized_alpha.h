@@ -12,6 +12,7 @@
 #include "integrators/consistent_projection.h"
 #include "integrators/form.h"
 #include "integrators/history.h"
+#include "integrators/inlining.h"
 #include "integrators/option.h"
 #include "integrators/starting_values.h"
 
@@ -116,7 +117,7 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
   }
 
   StepResult step() {
-    if constexpr (std::is_same_v<T, double>) {
+    if constexpr (inlines_all<T>) {
       return step_inlined();
     } else {
       return take_step();

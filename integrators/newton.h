@@ -8,6 +8,7 @@
 
 #include "integrators/audit.h"
 #include "integrators/dense_lu.h"
+#include "integrators/inlining.h"
 #include "integrators/outcome.h"
 #include "integrators/step_equation.h"
 
@@ -54,7 +55,7 @@ class NewtonKernel {
   template <class Closure>
   [[gnu::noinline]] StepResult solve(const T& t, const T& h, const Configuration<S>& q_n,
                                      const Closure& closure, Unknowns& z, Point& point) {
-    if constexpr (std::is_same_v<T, double>) {
+    if constexpr (inlines_all<T>) {
       return solve_inlined(t, h, q_n, closure, z, point);
     } else {
       return iterate(t, h, q_n, closure, z, point);
