@@ -46,7 +46,7 @@ build/release/liebench figures --out "$out" "${options[@]}" || status=$?
 
 # What a failed run has written is kept, and shown too.
 echo
-for kind in 'figures:figure*.svg figure*.pdf figure*.png' 'records:figure*.jsonl' 'table:verification.md'; do
+for kind in 'figures:*.svg *.pdf *.png' 'records:*.jsonl' 'tables:verification.md verification.csv formulations.md'; do
   for pattern in ${kind#*:}; do
     if compgen -G "$out/$pattern" >/dev/null; then printf '%-9s%s\n' "${kind%%:*}" "$out/$pattern"; fi
   done
