@@ -60,6 +60,7 @@ TEST_F(FiguresTest, EveryMethodFormAndFormulationHasTheOrderThatTheoryGivesIt) {
   const ProgramResult result = run({"figures", "--only", "verification", "--out", "out"});
   EXPECT_EQ(result.status, 0) << result.out << result.err;
   const std::string verdict = read_text(folder / "out/verification.md");
+  // 19 methods, exact and own start: 2 unconstrained formulations with 4 errors, 5 constrained ones in 2 forms with 6.
   EXPECT_TRUE(contains(verdict, "**2584 of 2584 claims confirmed.**")) << verdict.substr(0, 2000);
   // Reductions are entries, too.
   EXPECT_TRUE(contains(read_text(folder / "out/verification.csv"),
