@@ -87,7 +87,7 @@ void compare(const std::string& name, General general) {
   const double velocity = floors::distance(floor.velocity(), general.velocity());
   if (!(velocity <= velocity_tolerance))
     refuse(name, "velocity, distance and tolerance", velocity, velocity_tolerance);
-  const double iterations = double(general.audit().residuals), of_floor = double(floor.kept().iterations);
+  const double iterations = double(general.audit().iterations), of_floor = double(floor.kept().iterations);
   if (std::abs(iterations - of_floor) > iteration_tolerance * iterations)
     refuse(name, "iterations", iterations, of_floor);
   const double matrices = double(general.audit().factorizations - general.audit().factorizations_start),

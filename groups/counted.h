@@ -102,6 +102,13 @@ inline double to_double(const Counted& x) {
   return x.value();
 }
 
+template <>
+struct ScalarTraits<Counted> {
+  using Coefficient = double;
+  static constexpr bool extended = false;
+  using Linear = Counted;
+};
+
 }  // namespace liebench
 
 template <>

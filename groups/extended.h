@@ -17,6 +17,7 @@ using Extended = dd_real;
 template <>
 struct ScalarTraits<Extended> {
   using Coefficient = Extended;
+  using Linear = double;
   static constexpr bool extended = true;
 };
 

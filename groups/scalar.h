@@ -22,11 +22,25 @@ template <class T>
 struct ScalarTraits {
   using Coefficient = double;  // holds the coefficients of a power series to the scalar's own precision
   static constexpr bool extended = false;  // more than 64 bits
+  using Linear = double;  // Newton matrices and what is solved with them: the scalar is left to refinement
 };
+
+// The scalar of the linear algebra of a run in T.
+template <class T>
+using LinearScalar = typename ScalarTraits<T>::Linear;
 
 // The value nearest to x as a double, for norms, tolerances and output.
 inline double to_double(double x) {
   return x;
+}
+
+// x in the scalar of the linear algebra.
+template <class T>
+LinearScalar<T> to_linear(const T& x) {
+  if constexpr (std::same_as<T, LinearScalar<T>>)
+    return x;
+  else
+    return to_double(x);
 }
 
 }  // namespace liebench

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
-#include <map>
 #include <mutex>
 #include <numeric>
 #include <thread>
@@ -36,13 +35,13 @@ std::string reference_key(const RunSpec& run) {
   return fmt::format("{}{}{}", run.problem->name, run.parameters.dump(), reference_duration(run));
 }
 
-using PreparedProblems = std::map<std::string, std::shared_ptr<const PreparedProblem>>;
+}  // namespace
 
-PreparedProblems prepare(const std::vector<RunSpec>& runs, const ReferenceCache& cache, Progress& progress) {
-  PreparedProblems prepared;
+PreparedProblems::PreparedProblems(const std::vector<RunSpec>& runs, const ReferenceCache& cache,
+                                   Progress& progress) {
   const auto message = [&](std::string_view text) { progress.message(std::string(text)); };
   for (const RunSpec& run : runs) {
-    const auto [place, fresh] = prepared.try_emplace(reference_key(run));
+    const auto [place, fresh] = problems_.try_emplace(reference_key(run));
     if (!fresh) continue;
     try {
       place->second = run.problem->prepare(run.parameters, reference_duration(run), cache, message);
@@ -50,10 +49,11 @@ PreparedProblems prepare(const std::vector<RunSpec>& runs, const ReferenceCache&
       throw MachineError("no reference solution: " + std::string(error.what()));
     }
   }
-  return prepared;
 }
 
-}  // namespace
+const PreparedProblem& PreparedProblems::of(const RunSpec& run) const {
+  return *problems_.at(reference_key(run));
+}
 
 double expected_work(const RunSpec& run) {
   const double step = run.precision == Precision::extended ? 12.0 : 2.0;
@@ -66,7 +66,7 @@ int default_jobs() {
 
 void execute(const std::vector<RunSpec>& runs, int jobs, const ReferenceCache& cache, Progress& progress,
              const std::function<void(std::size_t, const Json&)>& take) {
-  const PreparedProblems problems = prepare(runs, cache, progress);
+  const PreparedProblems problems(runs, cache, progress);
   const Json origin = provenance();
   std::vector<std::size_t> order(runs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -81,7 +81,7 @@ void execute(const std::vector<RunSpec>& runs, int jobs, const ReferenceCache& c
     try {
       for (std::size_t i = next++; i < order.size(); i = next++) {
         const RunSpec& run = runs[order[i]];
-        const PreparedProblem& problem = *problems.at(reference_key(run));
+        const PreparedProblem& problem = problems.of(run);
         const RunResult result = problem.run(run.formulation->name, run.precision, run.request);
         const Json record = make_record(run, result, problem, origin);
         const std::lock_guard lock(mutex);

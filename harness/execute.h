@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "harness/study.h"
@@ -10,6 +12,17 @@
 namespace liebench {
 
 class Progress;
+
+// The problems of runs with their reference solutions, one for all runs that share it.
+class PreparedProblems {
+ public:
+  // Throws MachineError where a reference can't be made.
+  PreparedProblems(const std::vector<RunSpec>& runs, const ReferenceCache& cache, Progress& progress);
+  const PreparedProblem& of(const RunSpec& run) const;
+
+ private:
+  std::map<std::string, std::shared_ptr<const PreparedProblem>> problems_;
+};
 
 // How long a run takes, in arbitrary units: for progress and for the order of work, longest first.
 double expected_work(const RunSpec& run);

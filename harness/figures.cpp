@@ -250,7 +250,7 @@ Figure formulations_figure(const std::vector<Json>& records) {
           if (record.at("integrator") != "bliedf2nd" || !has_option(record, "k", 3) ||
               record.at("formulation") != formulations[i] || record.at("options").value("form", "") != form)
             continue;
-          const double x = cost ? operations_of_run(record) : record.at("step_size").get<double>();
+          const double x = cost ? record.at("cost").at("flops").get<double>() : record.at("step_size").get<double>();
           if (const auto error = error_of(record, {"q", "max_absolute"}))
             series.points.push_back({x, *error});
           else

@@ -8,7 +8,6 @@
 
 #include "harness/order_matrix.h"
 #include "harness/select.h"
-#include "harness/step_operations.h"
 #include "harness/table.h"
 
 namespace liebench {
@@ -54,17 +53,6 @@ std::string to_table(const std::vector<std::string>& methods, const std::vector<
 
 }  // namespace
 
-double operations_of_run(const Json& record) {
-  const StepOperations price =
-      step_operations(record.at("formulation").get<std::string>(), form_word(record));
-  const Json& cost = record.at("cost");
-  const auto count = [&](const char* key) { return cost.at(key).get<double>(); };
-  return count("residuals") * double(price.residual.total()) +
-         count("jacobians") * double(price.jacobian.total()) +
-         count("factorizations") * double(price.factorization.total()) +
-         count("solves") * double(price.solve.total());
-}
-
 std::optional<double> cost_at(const std::vector<CostPoint>& points, double target) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& [cost, error] = points[i];
@@ -100,7 +88,7 @@ std::string formulations_report(const std::vector<Json>& records) {
     for (const Json* record : curve.records) {
       const auto error = error_of(*record, quantity);
       if (!error) continue;
-      points.push_back({operations_of_run(*record), *error});
+      points.push_back({record->at("cost").at("flops").get<double>(), *error});
       if (std::abs(record->at("requested_step_size").get<double>() - common_step) < 1e-9)
         group.errors[method][formulation] = *error;
     }
@@ -112,9 +100,9 @@ std::string formulations_report(const std::vector<Json>& records) {
       "from its own "
       "start. \"Error\" is the largest error of q over the run, of position [m] and rotation [rad], whatever "
       "stands for "
-      "them. \"Operations\" are floating point operations of the step equation (residuals, Newton matrices, "
-      "factorizations, back-substitutions; see [studies](studies.md)), start included. The least of a row is "
-      "bold.\n");
+      "them. \"Operations\" are floating point operations of the whole run, start included, as the audit "
+      "counts "
+      "them (cost.flops, see [records](records.md)). The least of a row is bold.\n");
   for (const auto& [form, title] : titles) {
     const auto group = groups.find(form);
     if (group == groups.end()) continue;

@@ -10,10 +10,6 @@
 
 namespace liebench {
 
-// Floating point operations of a run in double: its residuals, Newton matrices, factorizations and back-substitutions, each
-// at the price of step_operations(). What a closure adds, the same for all formulations of one dimension, is left out.
-double operations_of_run(const Json& record);
-
 // The x at which y first falls to `target`, on the lines between the points of (x, y) in log-log coordinates, which are in
 // the order of falling step size; empty where no point is at or below it.
 struct CostPoint {

@@ -109,13 +109,17 @@ struct Formulation {
   FormulationInfo info;
   RunResult (*in_double)(const RunRequest&, const HeavyTopReference&);
   RunResult (*extended)(const RunRequest&, const HeavyTopReference&);
+  RunResult (*audit)(const RunRequest&, const HeavyTopReference&);
+  std::unique_ptr<TimedRun> (*timed)(const RunRequest&, const HeavyTopReference&);
 };
 
 template <template <class> class System>
 Formulation formulation(std::string_view summary) {
   return {{System<double>::formulation, System<double>::constraints, summary},
           run_heavy_top<System, double>,
-          run_heavy_top<System, Extended>};
+          run_heavy_top<System, Extended>,
+          audit_heavy_top<System>,
+          timed_heavy_top<System>};
 }
 
 // Every formulation: the explicit list.
@@ -138,20 +142,44 @@ std::vector<FormulationInfo> formulation_infos() {
   return infos;
 }
 
+// The counts are those of the run only where both went through the same numbers.
+void require_same_path(const RunResult& run, const RunResult& audit, std::string_view formulation,
+                       const RunRequest& request) {
+  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  if (run.outcome == audit.outcome && run.end_state.size() == audit.end_state.size() &&
+      std::equal(run.end_state.begin(), run.end_state.end(), audit.end_state.begin(), same))
+    return;
+  throw std::logic_error(
+      fmt::format("{} on {}, h = {}: the audit run took another path than the run that it counts",
+                  request.integrator, formulation, to_double(request.step_size)));
+}
+
 class HeavyTop final : public PreparedProblem {
  public:
   explicit HeavyTop(HeavyTopReference reference) : reference_(std::move(reference)) {}
 
   RunResult run(std::string_view formulation, Precision precision, const RunRequest& request) const override {
-    for (const Formulation& entry : formulations())
-      if (entry.info.name == formulation)
-        return (precision == Precision::extended ? entry.extended : entry.in_double)(request, reference_);
-    throw std::logic_error(fmt::format("heavy_top has no formulation \"{}\"", formulation));
+    const Formulation& entry = by_name(formulation);
+    if (precision == Precision::extended) return entry.extended(request, reference_);
+    RunResult result = entry.in_double(request, reference_);
+    const RunResult audit = entry.audit(request, reference_);
+    require_same_path(result, audit, formulation, request);
+    result.cost = audit.cost;
+    return result;
+  }
+  std::unique_ptr<TimedRun> timed(std::string_view formulation, const RunRequest& request) const override {
+    return by_name(formulation).timed(request, reference_);
   }
   std::string reference_method() const override { return reference_.method(); }
   double reference_error() const override { return reference_.error_estimate(); }
 
  private:
+  static const Formulation& by_name(std::string_view name) {
+    for (const Formulation& entry : formulations())
+      if (entry.info.name == name) return entry;
+    throw std::logic_error(fmt::format("heavy_top has no formulation \"{}\"", name));
+  }
+
   HeavyTopReference reference_;
 };
 

@@ -19,9 +19,11 @@ namespace liebench {
 class PreparedProblem {
  public:
   virtual ~PreparedProblem() = default;
-  // Runs the request; safe to call from several threads.
+  // Runs the request and counts what it costs; safe to call from several threads.
   virtual RunResult run(std::string_view formulation, Precision precision,
                         const RunRequest& request) const = 0;
+  // The run in double made ready to be timed.
+  virtual std::unique_ptr<TimedRun> timed(std::string_view formulation, const RunRequest& request) const = 0;
   virtual std::string reference_method() const = 0;
   virtual double reference_error() const = 0;
 };

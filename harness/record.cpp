@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
 #include "harness/errors.h"
+#include "harness/provenance.h"
+#include "harness/timing.h"
 
 namespace liebench {
 
@@ -35,7 +38,64 @@ Json drift(const Drift& d) {
   return j;
 }
 
+Json cost_to_json(const RunCost& c) {
+  Json j;
+  j["residuals"] = c.system.forces;
+  j["jacobians"] = c.system.stiffnesses;
+  j["factorizations"] = c.kernel.factorizations;
+  Json& causes = j["factorizations_by_cause"];
+  causes["start"] = c.kernel.factorizations_start;
+  causes["first"] = c.kernel.factorizations_first;
+  causes["refresh"] = c.kernel.factorizations_refresh;
+  causes["slow_convergence"] = c.kernel.factorizations_slow;
+  j["solves"] = c.kernel.solves;
+  j["newton_iterations"] = c.kernel.iterations;
+  j["exp"] = c.group.exp;
+  j["log"] = c.group.log;
+  j["tangent"] = c.group.tangent;
+  j["tangent_inverse"] = c.group.tangent_inverse;
+  j["commutators"] = c.group.commutators;
+  if (c.operations) {
+    j["flops"] = c.operations->total();
+    Json& kinds = j["flops_by_kind"];
+    kinds["add"] = c.operations->add;
+    kinds["multiply"] = c.operations->multiply;
+    kinds["divide"] = c.operations->divide;
+    kinds["square_root"] = c.operations->square_root;
+    kinds["transcendental"] = c.operations->transcendental;
+  }
+  return j;
+}
+
+Json time_to_json(const RunTimes& times) {
+  std::vector<double> sorted = times.per_step;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t half = sorted.size() / 2;
+  const double median = sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
+  // Nobody can use more digits of a time.
+  const auto tenths = [](double ns) { return std::round(ns * 10.0) / 10.0; };
+  Json j;
+  Json& per_step = j["ns_per_step"];
+  per_step["median"] = tenths(median);
+  per_step["min"] = tenths(sorted.front());
+  per_step["max"] = tenths(sorted.back());
+  per_step["repetitions"] = sorted.size();
+  for (const double ns : times.per_step) per_step["samples"].push_back(tenths(ns));
+  j["start_ns"] = std::round(times.start);
+  j["total_ns"] = std::round(times.start + median * double(times.steps));
+  j["spread"] = std::round(spread_of(times.per_step) * 1e4) / 1e4;
+  if (!times.steady) j["unsteady"] = true;
+  return j;
+}
+
 }  // namespace
+
+Json with_time(Json record, const RunTimes& times) {
+  record.erase("provenance");
+  record["time"] = time_to_json(times);
+  record["provenance"] = provenance();
+  return record;
+}
 
 Json make_record(const RunSpec& run, const RunResult& result, const PreparedProblem& problem,
                  const Json& provenance) {
@@ -74,12 +134,8 @@ Json make_record(const RunSpec& run, const RunResult& result, const PreparedProb
     if (result.lambda) errors["lambda"] = norms(*result.lambda);
   }
   if (result.drift) j["drift"] = drift(*result.drift);
-  Json& cost = j["cost"];
-  cost["residuals"] = result.audit.residuals;
-  cost["jacobians"] = result.audit.jacobians;
-  cost["factorizations"] = result.audit.factorizations;
-  cost["solves"] = result.audit.solves;
-  cost["newton_iterations"] = result.audit.iterations;
+  j["cost"] = cost_to_json(result.cost);
+  if (result.times) j["time"] = time_to_json(*result.times);
   j["provenance"] = provenance;
   return j;
 }

@@ -16,6 +16,10 @@ inline constexpr int record_schema = 1;
 Json make_record(const RunSpec& run, const RunResult& result, const PreparedProblem& problem,
                  const Json& provenance);
 
+// The record with the times of its run. Where it was made by another build or on another machine than the times, its
+// provenance becomes theirs: errors and counts are the same for all of them.
+Json with_time(Json record, const RunTimes& times);
+
 // The record on one line of a file, `place`. Throws InputError where it is none of this schema.
 Json parse_record(std::string_view line, const std::string& place);
 

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -52,6 +53,13 @@ void replace(int descriptor, const std::filesystem::path& temporary, std::string
   }
 }
 
+bool is_file_of(int descriptor, const std::filesystem::path& file) {
+  struct stat opened {
+  }, named{};
+  return ::fstat(descriptor, &opened) == 0 && ::stat(file.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
 // A line that was cut off begins as every record does.
 bool begins_like_record(std::string_view text) {
   constexpr std::string_view beginning = R"({"schema":)";
@@ -95,11 +103,14 @@ RecordFile::RecordFile(std::filesystem::path file) : file_(std::move(file)) {
   if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::regular &&
       kind != std::filesystem::file_type::directory)
     throw InputError(file_.string(), "is not a file; name one by --out");
-  descriptor_ = FileDescriptor(::open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
-  if (descriptor_.value() < 0) fail(file_, "cannot write");
-  // Two processes on one file would run the same rows twice.
-  if (::flock(descriptor_.value(), LOCK_EX | LOCK_NB) != 0)
-    throw MachineError(fmt::format("{}: another liebench is writing this file", file_.string()));
+  do {
+    descriptor_ = FileDescriptor(::open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+    if (descriptor_.value() < 0) fail(file_, "cannot write");
+    // Two processes on one file would run the same rows twice.
+    if (::flock(descriptor_.value(), LOCK_EX | LOCK_NB) != 0)
+      throw MachineError(fmt::format("{}: another liebench is writing this file", file_.string()));
+    // Another one may have put its sorted file in the place of the one opened here before it let go of the lock.
+  } while (!is_file_of(descriptor_.value(), file_));
   std::ifstream stream(file_, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   std::size_t begin = 0, number = 0;
@@ -118,15 +129,31 @@ RecordFile::RecordFile(std::filesystem::path file) : file_(std::move(file)) {
     if (line.empty()) continue;
     const Json record = parse_record(line, place);
     const auto key = record["key"].get<std::string>();
-    if (lines_.emplace(key, line).second) sequence_.push_back(key);
+    keep(key, line);
   }
+}
+
+// Of two lines of one run the later one holds more: it has been timed.
+void RecordFile::keep(const std::string& key, const std::string& line) {
+  if (lines_.insert_or_assign(key, line).second) sequence_.push_back(key);
+}
+
+Json RecordFile::record(const std::string& key) const {
+  return Json::parse(lines_.at(key));
 }
 
 void RecordFile::append(const Json& record) {
   const std::string line = record.dump();
   const auto key = record.at("key").get<std::string>();
-  write_all(descriptor_.value(), line + '\n', file_);
-  if (lines_.emplace(key, line).second) sequence_.push_back(key);
+  const off_t end = ::lseek(descriptor_.value(), 0, SEEK_END);
+  try {
+    write_all(descriptor_.value(), line + '\n', file_);
+  } catch (const MachineError&) {
+    // The disk is full, most likely: what did get written of the line goes.
+    if (end >= 0 && ::ftruncate(descriptor_.value(), end) != 0) fail(file_, "cannot write");
+    throw;
+  }
+  keep(key, line);
 }
 
 void RecordFile::sort(const std::vector<std::string>& keys) {

@@ -41,12 +41,17 @@ class RecordFile {
   explicit RecordFile(std::filesystem::path file);
 
   bool has(const std::string& key) const { return lines_.contains(key); }
+  // The record of this key, which is there.
+  Json record(const std::string& key) const;
+  // Appends a record, or a new version of one that is there.
   void append(const Json& record);
   // Rewrites the file whole: first the records of these keys in this order, then all others in the order they
   // were in.
   void sort(const std::vector<std::string>& keys);
 
  private:
+  void keep(const std::string& key, const std::string& line);
+
   std::filesystem::path file_;
   FileDescriptor descriptor_;                 // holds the lock
   std::map<std::string, std::string> lines_;  // by key, without the line's end

@@ -1,13 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "groups/audited_group.h"
+#include "groups/counted.h"
 #include "groups/extended.h"
 #include "integrators/audit.h"
 #include "integrators/option.h"
 #include "integrators/outcome.h"
+#include "problems/audited_system.h"
 
 // One run as the harness sees it: the request that goes down through the seam and the result that comes back.
 // Neither knows a group, a system or a scalar type.
@@ -54,13 +59,40 @@ struct RunFailure {
   std::string message;
 };
 
+// What a run costs, its start included, counted in an audit run: the same steps as those of the run, to the last bit.
+struct RunCost {
+  KernelAudit kernel;
+  SystemCalls system;
+  GroupCalls group;
+  std::optional<Operations> operations;  // of runs in double
+};
+
+// The times of the repetitions of a run in double, ns.
+struct RunTimes {
+  std::vector<double> per_step;  // one a repetition
+  double start = 0.0;            // of the start, the median
+  std::uint64_t steps = 0;       // that `per_step` is the time of: those after the start
+  bool steady = true;            // the repetitions agree as well as was asked for
+};
+
 struct RunResult {
   Outcome outcome = Outcome::ok;
   std::optional<RunFailure> failure;  // exactly where outcome is not ok
   // Of a run that ended well.
   std::optional<ErrorNorms> q, v, lambda;
   std::optional<Drift> drift;
-  KernelAudit audit;
+  RunCost cost;
+  std::vector<double> end_state;  // q, v, lambda where the run ended, rounded to double
+  std::optional<RunTimes> times;
+};
+
+// A run in double made ready to be timed: no counter, no comparison with the reference. Each call does all of its part.
+class TimedRun {
+ public:
+  virtual ~TimedRun() = default;
+  virtual bool start() = 0;   // the starting values, and the stepper's start; false where it failed
+  virtual bool follow() = 0;  // all steps after the start, from a copy of the started stepper
+  virtual std::uint64_t steps() const = 0;  // of follow()
 };
 
 }  // namespace liebench

@@ -5,8 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "harness/run.h"
 #include "integrators/list.h"
@@ -38,21 +43,22 @@ double relative_distance(const Vector& a, const Vector& b) {
   return size > 0.0 ? difference.norm() / size : difference.norm();
 }
 
-// A solution point in the scalar of the run.
+// A solution point in the scalar of the run: by way of double, unless that is Extended.
 template <MechanicalSystem S>
 SolutionPoint<S> rounded(const SolutionPoint<typename S::template rebind<Extended>>& p) {
   using T = typename S::Scalar;
-  using Group = typename S::template rebind<Extended>::Group;
-  SolutionPoint<S> r;
-  if constexpr (std::is_same_v<T, double>)
-    r.t = to_double(p.t);
-  else
-    r.t = p.t;
-  r.q = Group::template cast<T>(p.q);
-  r.v = p.v.template cast<T>();
-  r.acceleration = p.acceleration.template cast<T>();
-  r.lambda = p.lambda.template cast<T>();
-  return r;
+  using Exact = typename S::template rebind<Extended>::Group;
+  using Rounded = typename S::template rebind<double>::Group;
+  if constexpr (std::is_same_v<T, Extended>) {
+    return p;
+  } else {
+    const auto in_scalar = [](const auto& v) { return v.template cast<double>().template cast<T>().eval(); };
+    return {.t = T(to_double(p.t)),
+            .q = Rounded::template cast<T>(Exact::template cast<double>(p.q)),
+            .v = in_scalar(p.v),
+            .acceleration = in_scalar(p.acceleration),
+            .lambda = in_scalar(p.lambda)};
+  }
 }
 
 // Compares a running method with the exact solution and keeps the norms.
@@ -142,77 +148,197 @@ constexpr std::string_view explanation(Outcome outcome) {
   return "";
 }
 
-// One accuracy run. `exact(t)` is the solution point at t.
-template <class Stepper, class Solution>
-RunResult follow(Stepper stepper, const typename Stepper::System& system, const RunRequest& request,
-                 const Solution& exact) {
+template <class T>
+T step_size_of(const RunRequest& request) {
+  if constexpr (std::is_same_v<T, Extended>)
+    return request.step_size;
+  else
+    return T(to_double(request.step_size));
+}
+
+// A stepper with the points that it starts from. `exact(t)` is the solution point at t.
+template <class Stepper>
+struct Beginning {
   using S = typename Stepper::System;
-  using T = typename S::Scalar;
-  const auto time = [&](std::uint64_t n) { return request.step_size * Extended(double(n)); };
-  RunResult result;
+  std::array<SolutionPoint<S>, std::size_t(most_starting_points)> room;
+
+  std::span<SolutionPoint<S>> points(const Stepper& stepper) {
+    return std::span(room).first(std::size_t(stepper.starting_points()));
+  }
+
+  // What "start": "reference" takes from the reference solution.
+  template <class Solution>
+  void take_reference(const Stepper& stepper, const RunRequest& request, const Solution& exact) {
+    std::size_t j = 0;
+    for (auto& point : points(stepper)) point = rounded<S>(exact(request.step_size * Extended(double(j++))));
+  }
+
+  // Of a reference start take_reference() goes before.
+  StepResult start(Stepper& stepper, const S& system, const RunRequest& request) {
+    using T = typename S::Scalar;
+    const T h = step_size_of<T>(request);
+    if (request.start == Start::self)
+      if (const StepResult own = self_start(system, T(0.0), h, points(stepper), stepper.audit());
+          own.outcome != Outcome::ok)
+        return own;
+    return stepper.start(h, points(stepper));
+  }
+};
+
+// Counts what happens on this thread during its life.
+class Counting {
+ public:
+  template <class Stepper>
+  RunCost cost(const Stepper& stepper) const {
+    RunCost cost;
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(stepper.audit())>, KernelAudit>)
+      cost.kernel = stepper.audit();
+    cost.system = SystemCalls::counts() - system_;
+    cost.group = GroupCalls::counts() - group_;
+    if constexpr (std::is_same_v<typename Stepper::T, Counted>)
+      cost.operations = Counted::operations() - operations_;
+    return cost;
+  }
+
+ private:
+  SystemCalls system_ = SystemCalls::counts();
+  GroupCalls group_ = GroupCalls::counts();
+  Operations operations_ = Counted::operations();
+};
+
+template <class Stepper>
+std::vector<double> state_of(const Stepper& stepper) {
+  using Group = typename Stepper::Group;
+  std::vector<double> state;
+  const auto append = [&](const auto& vector) {
+    for (Eigen::Index i = 0; i < vector.size(); ++i) state.push_back(to_double(vector(i)));
+  };
+  append(Group::stacked(stepper.configuration()).eval());
+  append(stepper.velocity());
+  append(stepper.multipliers());
+  return state;
+}
+
+// One run. `observe(n, q, v, lambda)` sees every state, those of the method's own start included; of the last starting point
+// as the method goes on from it.
+template <class Stepper, class Solution, class Observer>
+void follow(Stepper stepper, const typename Stepper::System& system, const RunRequest& request,
+            const Solution& exact, const Observer& observe, RunResult& result) {
+  const Counting counting;
+  Beginning<Stepper> beginning;
+  const auto first = std::uint64_t(stepper.steps());
   const auto fail = [&](const StepResult& step, std::uint64_t n) {
     result.outcome = step.outcome;
-    result.failure = RunFailure{.time = to_double(time(n)),
+    result.failure = RunFailure{.time = to_double(request.step_size * Extended(double(n))),
                                 .step = n,
                                 .residual = step.residual,
                                 .message = std::string(explanation(step.outcome))};
-    result.audit = stepper.audit();
-    return result;
   };
-
-  T h;
-  if constexpr (std::is_same_v<T, double>)
-    h = to_double(request.step_size);
-  else
-    h = request.step_size;
-  std::array<SolutionPoint<S>, std::size_t(most_starting_points)> room;
-  const auto points = std::span(room).first(std::size_t(stepper.starting_points()));
-  const auto first = std::uint64_t(stepper.steps());
-  if (request.start == Start::self) {
-    const StepResult own = self_start(system, T(0.0), h, points, stepper.audit());
-    if (own.outcome != Outcome::ok) return fail(own, first - 1);
+  const auto observe_state = [&](std::uint64_t n) {
+    observe(n, stepper.configuration(), stepper.velocity(), stepper.multipliers());
+  };
+  if (request.start == Start::reference) beginning.take_reference(stepper, request, exact);
+  const StepResult start = beginning.start(stepper, system, request);
+  if (start.outcome != Outcome::ok) {
+    fail(start, first - 1);
   } else {
-    for (std::size_t j = 0; j < points.size(); ++j) points[j] = rounded<S>(exact(time(j)));
+    if (request.start == Start::self) {
+      for (std::uint64_t n = 1; n + 1 < first; ++n)
+        observe(n, beginning.room[n].q, beginning.room[n].v, beginning.room[n].lambda);
+      if (first > 1) observe_state(first - 1);
+    }
+    for (std::uint64_t n = first; n <= request.steps && result.outcome == Outcome::ok; ++n) {
+      if (const StepResult step = stepper.step(); step.outcome != Outcome::ok)
+        fail(step, n);
+      else
+        observe_state(n);
+    }
   }
-  if (const StepResult start = stepper.start(h, points); start.outcome != Outcome::ok)
-    return fail(start, first - 1);
-  Monitor<S> monitor(system, request.steps);
-  const auto observe = [&](std::uint64_t n) {
-    monitor.observe(n, stepper.configuration(), stepper.velocity(), stepper.multipliers(), exact(time(n)));
-  };
-  if (request.start == Start::self) {
-    // What the method's own start has computed are errors of the run; of the last point as the method goes on from it.
-    for (std::uint64_t n = 1; n + 1 < first; ++n)
-      monitor.observe(n, points[n].q, points[n].v, points[n].lambda, exact(time(n)));
-    if (first > 1) observe(first - 1);
-  }
-  for (std::uint64_t n = first; n <= request.steps; ++n) {
-    if (const StepResult step = stepper.step(); step.outcome != Outcome::ok) return fail(step, n);
-    observe(n);
-  }
-  monitor.report(result);
-  result.audit = stepper.audit();
-  return result;
+  result.cost = counting.cost(stepper);
+  result.end_state = state_of(stepper);
 }
+
+template <class Stepper>
+class TimedStepper final : public TimedRun {
+ public:
+  using S = typename Stepper::System;
+  template <class Solution>
+  TimedStepper(Stepper stepper, const S& system, const RunRequest& request, const Solution& exact)
+      : system_(system), request_(request), fresh_(stepper), started_(stepper) {
+    if (request.start == Start::reference) beginning_.take_reference(fresh_, request, exact);
+  }
+  bool start() override {
+    started_ = fresh_;
+    return beginning_.start(started_, system_, request_).outcome == Outcome::ok;
+  }
+  bool follow() override {
+    Stepper stepper = started_;
+    for (std::uint64_t n = std::uint64_t(stepper.steps()); n <= request_.steps; ++n)
+      if (stepper.step().outcome != Outcome::ok) return false;
+    last_ = stepper.velocity();
+    return true;
+  }
+  std::uint64_t steps() const override { return request_.steps + 1 - std::uint64_t(fresh_.steps()); }
+
+ private:
+  S system_;
+  RunRequest request_;
+  Beginning<Stepper> beginning_;
+  Stepper fresh_, started_;
+  Velocity<S> last_;
+};
 
 }  // namespace detail
 
-// Runs the integrator that the request names, of the list of all, on a system with its exact solution.
-template <MechanicalSystem S, class Solution>
-RunResult run_method(const RunRequest& request, const S& system, const Solution& exact) {
-  RunResult result;
+// Calls visit(stepper) with the integrator that the request names, of the list of all.
+template <MechanicalSystem S, class Audit, class Visitor>
+void with_method(const RunRequest& request, const S& system, const Visitor& visit) {
   const auto attempt = [&]<class Method>(IntegratorList<Method>) {
     if (Method::name != request.integrator) return false;
-    result = Method::template with_stepper<S, KernelAudit>(
-        Method::options(request.options), system,
-        [&](auto stepper) { return detail::follow(std::move(stepper), system, request, exact); });
+    Method::template with_stepper<S, Audit>(Method::options(request.options), system, visit);
     return true;
   };
   const bool found = [&]<class... Methods>(IntegratorList<Methods...>) {
     return (attempt(IntegratorList<Methods>{}) || ...);
   }(Integrators{});
   if (!found) throw std::logic_error(fmt::format("integrator \"{}\" is not in the list", request.integrator));
+}
+
+// Runs the request and compares it with the exact solution. In double nothing is counted (the run is the code that is
+// timed); in extended precision the audit is part of it.
+template <MechanicalSystem S, class Audit, class Solution>
+RunResult accuracy_run(const RunRequest& request, const S& system, const Solution& exact) {
+  RunResult result;
+  detail::Monitor<S> monitor(system, request.steps);
+  const auto observe = [&](std::uint64_t n, const auto& q, const auto& v, const auto& lambda) {
+    monitor.observe(n, q, v, lambda, exact(request.step_size * Extended(double(n))));
+  };
+  with_method<S, Audit>(request, system, [&](auto stepper) {
+    detail::follow(std::move(stepper), system, request, exact, observe, result);
+  });
+  if (result.outcome == Outcome::ok) monitor.report(result);
   return result;
+}
+
+// The same run, counted.
+template <MechanicalSystem S, class Solution>
+RunResult audit_run(const RunRequest& request, const S& system, const Solution& exact) {
+  RunResult result;
+  with_method<S, KernelAudit>(request, system, [&](auto stepper) {
+    detail::follow(
+        std::move(stepper), system, request, exact, [](const auto&...) {}, result);
+  });
+  return result;
+}
+
+template <MechanicalSystem S, class Solution>
+std::unique_ptr<TimedRun> timed_run(const RunRequest& request, const S& system, const Solution& exact) {
+  std::unique_ptr<TimedRun> run;
+  with_method<S, NoAudit>(request, system, [&](auto stepper) {
+    run =
+        std::make_unique<detail::TimedStepper<decltype(stepper)>>(std::move(stepper), system, request, exact);
+  });
+  return run;
 }
 
 }  // namespace liebench

@@ -8,7 +8,7 @@
 //   base()             the increment at d = 0
 //   increment(d)       Dq_n = base() + d
 //   at(d)              ClosureValues: v_{n+1} - v_n, v_{n+1}, h v'_{n+1}
-//   linearization(d)   ClosureDerivatives of v and h v' with respect to d, in double (so is the Newton matrix)
+//   linearization(d)   ClosureDerivatives of v and h v' with respect to d, in the scalar of the Newton matrix
 
 namespace liebench {
 
@@ -28,7 +28,8 @@ struct ClosureDerivatives {
 
 // The matrix of a derivative.
 template <MechanicalSystem S>
-using DerivativeMatrix = Eigen::Matrix<double, S::Group::dimension, S::Group::dimension>;
+using DerivativeMatrix =
+    Eigen::Matrix<LinearScalar<typename S::Scalar>, S::Group::dimension, S::Group::dimension>;
 
 // Closure of the methods whose v and v' are affine in the increment:
 //
@@ -54,8 +55,8 @@ struct AffineClosure {
     values.scaled_acceleration = acceleration_slope * d + scaled_acceleration;
     return values;
   }
-  ClosureDerivatives<double> linearization(const Velocity<S>&) const {
-    return {to_double(velocity_slope), to_double(acceleration_slope)};
+  ClosureDerivatives<LinearScalar<T>> linearization(const Velocity<S>&) const {
+    return {to_linear(velocity_slope), to_linear(acceleration_slope)};
   }
 };
 

@@ -12,32 +12,41 @@ enum class FactorizationCause {
   slow_convergence
 };
 
-// What the Newton kernel did, counted where it happens. A stepper takes the type of its audit as a parameter:
-// runs that are timed take NoAudit, which is empty and compiles to nothing.
+// What the Newton kernel and the starting procedures did, counted where it happens (evaluations of the system and of its group
+// are counted by problems/audited_system.h). A stepper takes the type of its audit as a parameter: NoAudit is empty
+// and compiles to nothing.
 struct NoAudit {
   void iteration() {}
-  void residual() {}
-  void jacobian() {}
   void factorization(FactorizationCause) {}
   void solve() {}
 };
 
 struct KernelAudit {
   std::uint64_t iterations = 0;  // of the Newton kernel
-  std::uint64_t residuals = 0;
-  std::uint64_t jacobians = 0;
   std::uint64_t factorizations = 0;
-  std::uint64_t factorizations_slow = 0;   // those among them that slow convergence asked for
-  std::uint64_t factorizations_start = 0;  // those of the starting procedure
+  std::uint64_t factorizations_start = 0;  // of them, by their causes
+  std::uint64_t factorizations_first = 0;
+  std::uint64_t factorizations_refresh = 0;
+  std::uint64_t factorizations_slow = 0;
   std::uint64_t solves = 0;
 
   void iteration() { ++iterations; }
-  void residual() { ++residuals; }
-  void jacobian() { ++jacobians; }
   void factorization(FactorizationCause cause) {
     ++factorizations;
-    if (cause == FactorizationCause::slow_convergence) ++factorizations_slow;
-    if (cause == FactorizationCause::start) ++factorizations_start;
+    switch (cause) {
+      case FactorizationCause::start:
+        ++factorizations_start;
+        break;
+      case FactorizationCause::first:
+        ++factorizations_first;
+        break;
+      case FactorizationCause::refresh:
+        ++factorizations_refresh;
+        break;
+      case FactorizationCause::slow_convergence:
+        ++factorizations_slow;
+        break;
+    }
   }
   void solve() { ++solves; }
 };

@@ -135,7 +135,7 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
 
  private:
   // In double all but the kernel's solve() is inlined: what is passed through memory stalls the processor.
-  [[gnu::flatten]] StepResult step_inlined() { return take_step(); }
+  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
 
   StepResult take_step() {
     state_.velocity = velocity_;

@@ -9,9 +9,8 @@
 #include "integrators/starting_values.h"
 #include "problems/system.h"
 
-// Consistent values: what the equations of motion and the constraints say at one instant. `audit` counts a matrix and its
-// factorization for each solved system, a back-substitution for each pass of its refinement, and a residual for each
-// evaluation of the forces.
+// Consistent values: what the equations of motion and the constraints say at one instant. `audit` counts a
+// factorization for each solved system and a back-substitution for each pass of its refinement.
 
 namespace liebench {
 
@@ -25,8 +24,8 @@ inline constexpr int refinement_passes = ScalarTraits<T>::extended ? 4 : 2;
 //   [ B(q)  0      ] [ y ] = [ b ]
 //
 // which gives consistent accelerations and multipliers (a = -g, b = -Z(v, v)), projections on the hidden
-// constraint, and the velocity modification of eq. (56). Solved in double, refined in the scalar of the
-// system to its round-off. Empty where M and B make the matrix singular.
+// constraint, and the velocity modification of eq. (56). Solved in the scalar of the linear algebra, refined in that
+// of the system to its round-off. Empty where M and B make the matrix singular.
 template <ConstrainedSystem S>
 struct SaddlePointSolution {
   Velocity<S> x;
@@ -40,13 +39,13 @@ template <ConstrainedSystem S, class Audit>
   constexpr int m = S::Group::dimension, l = S::constraints;
   const VelocityMatrix<S> M = system.mass_matrix(q);
   const ConstraintGradient<S> B = system.constraint_gradient(q);
-  typename DenseLu<double, m + l>::Matrix A;
-  A.setZero();
-  A.template topLeftCorner<m, m>() = M.template cast<double>();
-  A.template topRightCorner<m, l>() = B.transpose().template cast<double>();
-  A.template bottomLeftCorner<l, m>() = B.template cast<double>();
-  DenseLu<double, m + l> lu;
-  audit.jacobian();
+  using Linear = LinearScalar<T>;
+  typename DenseLu<Linear, m + l>::Matrix A;
+  A.setConstant(Linear(0.0));
+  A.template topLeftCorner<m, m>() = M.template cast<Linear>();
+  A.template topRightCorner<m, l>() = B.transpose().template cast<Linear>();
+  A.template bottomLeftCorner<l, m>() = B.template cast<Linear>();
+  DenseLu<Linear, m + l> lu;
   audit.factorization(FactorizationCause::start);
   if (!lu.factorize(A)) return std::nullopt;
   SaddlePointSolution<S> s{Velocity<S>::Constant(T(0.0)), Multipliers<S>::Constant(T(0.0))};
@@ -54,7 +53,7 @@ template <ConstrainedSystem S, class Audit>
     Eigen::Matrix<T, m + l, 1> r;
     r.template head<m>() = a - M * s.x - B.transpose() * s.y;
     r.template tail<l>() = b - B * s.x;
-    const Eigen::Matrix<T, m + l, 1> d = lu.solve(r.template cast<double>()).template cast<T>();
+    const Eigen::Matrix<T, m + l, 1> d = lu.solve(r.template cast<Linear>()).template cast<T>();
     audit.solve();
     s.x += d.template head<m>();
     s.y += d.template tail<l>();
@@ -78,7 +77,6 @@ template <MechanicalSystem S, class Audit>
                                                                            Audit& audit) {
   using T = typename S::Scalar;
   const Velocity<S> force = -system.force(t, q, v);
-  audit.residual();
   if constexpr (S::constraints > 0) {
     const auto solution =
         solve_saddle_point(system, q, force, Multipliers<S>(-system.constraint_curvature(q, v)), audit);
@@ -86,15 +84,15 @@ template <MechanicalSystem S, class Audit>
     return ConsistentDynamics<S>{solution->x, solution->y};
   } else {
     constexpr int m = S::Group::dimension;
-    DenseLu<double, m> lu;
+    using Linear = LinearScalar<T>;
+    DenseLu<Linear, m> lu;
     const VelocityMatrix<S> M = system.mass_matrix(q);
-    audit.jacobian();
     audit.factorization(FactorizationCause::start);
-    if (!lu.factorize(M.template cast<double>())) return std::nullopt;
+    if (!lu.factorize(M.template cast<Linear>())) return std::nullopt;
     ConsistentDynamics<S> dynamics{Velocity<S>::Constant(T(0.0)), {}};
     for (int pass = 0; pass < refinement_passes<T>; ++pass) {
       const Velocity<S> r = force - system.momentum(q, dynamics.acceleration);
-      dynamics.acceleration += lu.solve(r.template cast<double>()).template cast<T>();
+      dynamics.acceleration += lu.solve(r.template cast<Linear>()).template cast<T>();
       audit.solve();
     }
     return dynamics;

@@ -38,21 +38,23 @@ struct TangentSeries {
   typename Group::TangentMatrix derivative;  // D_s (T(s) w)
 
   TangentSeries(const typename Group::Tangent& s, const typename Group::Tangent& w, int most) {
+    using T = typename Group::Scalar;
     using Matrix = typename Group::TangentMatrix;
+    using std::abs;
     const Matrix A = Group::ad(s);
     Matrix power = Matrix::Identity(), Y = Matrix::Zero();
     typename Group::Tangent y = w;
     tangent = power;
     derivative = Y;
-    double factor = 1.0;
+    T factor = 1.0;
     for (int j = 1; j <= most; ++j) {
-      factor /= -(j + 1.0);
+      factor /= T(-(j + 1.0));
       Y = (A * Y - Group::ad(y)).eval();
       y = (A * y).eval();
       power = (A * power).eval();
       tangent += factor * power;
       derivative += factor * Y;
-      if (power.template lpNorm<Eigen::Infinity>() * std::abs(factor) < 1e-4 && j > 1) break;
+      if (power.template lpNorm<Eigen::Infinity>() * abs(factor) < T(1e-4) && j > 1) break;
     }
   }
 };
@@ -85,12 +87,13 @@ struct FaltinsenClosure {
 
   // v = T(u) w: dv/dd = T(u) gamma_1 + h D_s (T(s) w) at s = u
   [[gnu::noinline]] ClosureDerivatives<DerivativeMatrix<S>> linearization(const Velocity<S>& d) const {
-    using Doubles = typename S::template rebind<double>::Group;
+    using Linear = LinearScalar<T>;
+    using LinearGroup = typename S::template rebind<Linear>::Group;
     const Velocity<S> Dq = increment(d);
-    const double slope = to_double(affine.velocity_slope), step = to_double(h);
-    const typename Doubles::Tangent u = step * Dq.template cast<double>();
-    const typename Doubles::Tangent w = (Dq + x_slope * d + x_known).eval().template cast<double>();
-    const TangentSeries<Doubles> series(u, w, exact ? most_terms : terms);
+    const Linear slope = to_linear(affine.velocity_slope), step = to_linear(h);
+    const typename LinearGroup::Tangent u = step * Dq.template cast<Linear>();
+    const typename LinearGroup::Tangent w = (Dq + x_slope * d + x_known).eval().template cast<Linear>();
+    const TangentSeries<LinearGroup> series(u, w, exact ? most_terms : terms);
     const DerivativeMatrix<S> dv = slope * series.tangent + step * series.derivative;
     return {dv, slope * dv};
   }
@@ -138,12 +141,12 @@ class FaltinsenKinematics {
   bool defined(const BdfState<S>& state) const {
     if (!exact || k_ < 3) return true;
     Velocity<S> Dq = state.increment;
-    double angle = 0.0;
+    LinearScalar<T> angle = 0.0;
     for (int i = 0; i < k_ - 1; ++i) {
-      angle += to_double(Group::rotation_angle(state.h * Dq));
+      angle += to_linear(Group::rotation_angle(state.h * Dq));
       Dq -= state.increment_changes[i];
     }
-    return angle < std::numbers::pi;
+    return to_double(angle) < std::numbers::pi;
   }
 
   FaltinsenClosure<S, exact> closure(const BdfState<S>& state, const AffineClosure<S>& affine) const {

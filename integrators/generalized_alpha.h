@@ -126,7 +126,7 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
 
  private:
   // In double all but the kernel's solve() is inlined: what is passed through memory stalls the processor.
-  [[gnu::flatten]] StepResult step_inlined() { return take_step(); }
+  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
 
   StepResult take_step() {
     Velocity<S> change = Velocity<S>::Constant(T(0.0));

@@ -124,6 +124,7 @@ class ExplicitCorrection {
 template <MechanicalSystem S>
 struct ImplicitCorrectionClosure {
   using T = typename S::Scalar;
+  using Linear = LinearScalar<T>;
   using Group = typename S::Group;
   AffineClosure<S> affine;  // for kappa_{n+1} = kappa_n
   T h;
@@ -141,10 +142,10 @@ struct ImplicitCorrectionClosure {
     const Velocity<S> fixed = values.velocity_change - kappa;
     Velocity<S>& change = values.velocity_change;
     Velocity<S> correction = -kappa;
-    const double unit = 0.5 * to_double(Eigen::NumTraits<T>::epsilon());
+    const Linear unit = 0.5 * to_double(Eigen::NumTraits<T>::epsilon());
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
       const Velocity<S> next = scaled_correction(change);
-      const double moved = largest(next - correction);
+      const Linear moved = largest(next - correction);
       correction = next;
       change = fixed - correction;
       if (!(moved > unit * (largest(change) + largest(correction)))) break;  // a NaN ends it, too
@@ -158,13 +159,13 @@ struct ImplicitCorrectionClosure {
 
   // (I - N)^{-1} gamma_1 up to N^3, with N the derivative of -h/12 [v, a] with respect to v.
   [[gnu::noinline]] ClosureDerivatives<DerivativeMatrix<S>> linearization(const Velocity<S>& d) const {
-    using Doubles = typename S::template rebind<double>::Group;
+    using LinearGroup = typename S::template rebind<Linear>::Group;
     using Matrix = DerivativeMatrix<S>;
     const ClosureValues<S> values = at(d);
-    const double slope = to_double(affine.velocity_slope);
-    const Matrix N = to_double(h) / 12.0 *
-                     (Doubles::ad(derivative(0, values.velocity_change).template cast<double>()) -
-                      to_double(slopes[0]) * Doubles::ad(values.velocity.template cast<double>()));
+    const Linear slope = to_linear(affine.velocity_slope);
+    const Matrix N = to_linear(h) / Linear(12.0) *
+                     (LinearGroup::ad(derivative(0, values.velocity_change).template cast<Linear>()) -
+                      to_linear(slopes[0]) * LinearGroup::ad(values.velocity.template cast<Linear>()));
     const Matrix dv = slope * (Matrix::Identity() + N * (Matrix::Identity() + N));
     return {dv, slope * dv};
   }
@@ -182,8 +183,8 @@ struct ImplicitCorrectionClosure {
     return slopes[order] * change + known[order];
   }
   template <class Vector>
-  static double largest(const Vector& v) {
-    return v.eval().template cast<double>().template lpNorm<Eigen::Infinity>();
+  static Linear largest(const Vector& v) {
+    return v.eval().template cast<Linear>().template lpNorm<Eigen::Infinity>();
   }
 };
 

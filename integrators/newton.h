@@ -15,7 +15,7 @@
 // The Newton kernel that solves the step equation of every method.
 //
 // Simplified Newton iteration: one factorization serves iterations and steps until a fresh one is cheaper.
-// The residual is evaluated in the scalar T of the run, matrix and correction in double (iterative
+// The residual is evaluated in the scalar T of the run, matrix and correction in LinearScalar<T>, double (iterative
 // refinement: in extended precision each correction still gains the digits that double has).
 //
 // Stopping rule. Let s_i be the size of the i-th correction in units of round-off of the unknowns, and
@@ -36,6 +36,7 @@ template <MechanicalSystem S, Form form, class Audit>
 class NewtonKernel {
  public:
   using T = typename S::Scalar;
+  using Linear = LinearScalar<T>;
   using Equation = StepEquation<S, form>;
   using Unknowns = typename Equation::Unknowns;
   using Point = typename Equation::Point;
@@ -43,7 +44,7 @@ class NewtonKernel {
   static constexpr int l = Equation::l;
   static constexpr int n = Equation::n;
 
-  explicit NewtonKernel(const S& system) : system_(system), linear_system_(system.template cast<double>()) {}
+  explicit NewtonKernel(const S& system) : system_(system), linear_system_(system.template cast<Linear>()) {}
 
   const S& system() const { return system_; }
   const Audit& audit() const { return audit_; }
@@ -74,8 +75,8 @@ class NewtonKernel {
                      Point& point) {
     bool fresh = false;    // the matrix was formed in this step
     bool stalled = false;  // the last increment did not shrink, with a fresh matrix
-    double previous = 0.0;
-    const double scale = fixed_scale(closure, q_n, to_double(h));
+    Linear previous = 0.0;
+    const Linear scale = fixed_scale(closure, q_n, to_linear(h));
     Unknowns r;
     if (!factorized_ || marginal_cost_exceeds_average()) {
       const auto cause = factorized_ ? FactorizationCause::refresh : FactorizationCause::first;
@@ -88,21 +89,20 @@ class NewtonKernel {
       Equation::evaluate(system_, h, q_n, closure, z, point);
       Equation::residual(system_, t, h, point, z, r);
       audit_.iteration();
-      audit_.residual();
-      const Correction d = lu_.solve(to_linear(r));
+      const Correction d = lu_.solve(linear(r));
       audit_.solve();
       const Unknowns before = z;
       z -= d.template cast<T>();
-      double largest_d;
-      const double size = weighted_norm(d, z, scale, largest_d);
-      if (!std::isfinite(size)) return failure(Outcome::non_finite, r);
+      Linear largest_d;
+      const Linear size = weighted_norm(d, z, scale, largest_d);
+      if (!std::isfinite(to_double(size))) return failure(Outcome::non_finite, r);
       if constexpr (!S::Group::commutative)
-        if (largest_d * to_double(h) > farthest) return failure(Outcome::newton_diverged, r);
+        if (to_double(largest_d * to_linear(h)) > farthest) return failure(Outcome::newton_diverged, r);
 
       // Below one unit a size is noise: it bounds the rate, it does not measure it.
-      const double rate = iteration > 1 ? std::max(size, 1.0) / previous : rate_;
+      const Linear rate = iteration > 1 ? std::max(size, Linear(1.0)) / previous : rate_;
       if (size <= unit || rate * size <= unit) {
-        rate_ = fresh ? 1.0 : std::min(1.0, rate * safety);
+        rate_ = fresh ? Linear(1.0) : std::min(Linear(1.0), rate * safety);
         finish(iteration);
         break;
       }
@@ -148,33 +148,33 @@ class NewtonKernel {
   // Cost of Jacobian and factorization in units of one iteration (residual and back-substitution), measured.
   static constexpr double factorization_cost = 2.0;
 
-  using LinearSystem = typename S::template rebind<double>;
-  using Lu = DenseLu<double, n>;
+  using LinearSystem = typename S::template rebind<Linear>;
+  using Lu = DenseLu<Linear, n>;
   using Correction = typename Lu::Vector;
 
-  static Correction to_linear(const Unknowns& r) { return r.template cast<double>(); }
+  static Correction linear(const Unknowns& r) { return r.template cast<Linear>(); }
 
   // What round-off of d is relative to, apart from d itself.
   template <class Closure>
-  static double fixed_scale(const Closure& closure, const Configuration<S>& q_n, double h) {
-    double scale = 0.01 * closure.base().template cast<double>().template lpNorm<Eigen::Infinity>();
+  static Linear fixed_scale(const Closure& closure, const Configuration<S>& q_n, const Linear& h) {
+    Linear scale = Linear(0.01) * closure.base().template cast<Linear>().template lpNorm<Eigen::Infinity>();
     if constexpr (l > 0)
-      scale += S::Group::stacked(q_n).template cast<double>().template lpNorm<Eigen::Infinity>() / h;
+      scale += S::Group::stacked(q_n).template cast<Linear>().template lpNorm<Eigen::Infinity>() / h;
     return scale;
   }
 
   // Corrections in units of round-off of the unknowns; and the largest |d_i| of z.
-  [[gnu::always_inline]] double weighted_norm(const Correction& d, const Unknowns& z, double scale,
-                                              double& largest_d) const {
-    const Correction z_linear = to_linear(z);
+  [[gnu::always_inline]] Linear weighted_norm(const Correction& d, const Unknowns& z, Linear scale,
+                                              Linear& largest_d) const {
+    const Correction z_linear = linear(z);
     largest_d = z_linear.template head<m>().template lpNorm<Eigen::Infinity>();
     scale += largest_d;
-    double largest = d.template head<m>().template lpNorm<Eigen::Infinity>();
+    Linear largest = d.template head<m>().template lpNorm<Eigen::Infinity>();
     if constexpr (Equation::stabilized)
       largest = std::max(largest, d.template tail<l>().template lpNorm<Eigen::Infinity>());
-    double size = relative(largest, scale);
+    Linear size = relative(largest, scale);
     if constexpr (l > 0) {
-      const double multiplier_scale =
+      const Linear multiplier_scale =
           z_linear.template segment<l>(m).template lpNorm<Eigen::Infinity>() + mass_scale_ * scale;
       size = std::max(
           size, relative(d.template segment<l>(m).template lpNorm<Eigen::Infinity>(), multiplier_scale));
@@ -182,9 +182,9 @@ class NewtonKernel {
     return size;
   }
 
-  static double relative(double value, double scale) {
+  static Linear relative(const Linear& value, const Linear& scale) {
     const double eps = to_double(Eigen::NumTraits<T>::epsilon());
-    return value / (eps * scale + std::numeric_limits<double>::min());
+    return value / (Linear(eps) * scale + Linear(std::numeric_limits<double>::min()));
   }
 
   // At the point of `at`, with the multipliers of z.
@@ -196,20 +196,18 @@ class NewtonKernel {
     Equation::evaluate(system_, h, q_n, closure, at, point);
     const auto derivatives = closure.linearization(point.change);
     typename Lu::Matrix J;
-    if constexpr (std::is_same_v<T, double>) {
+    if constexpr (std::is_same_v<T, Linear>) {
       Equation::jacobian(system_, t, h, q_n, point, z, derivatives, J);
     } else {
       using LinearEquation = StepEquation<LinearSystem, form>;
       typename LinearEquation::Point linear_point;
-      linear_point.step = point.step.template cast<double>();
-      linear_point.q = S::Group::template cast<double>(point.q);
-      linear_point.values.velocity = point.values.velocity.template cast<double>();
-      linear_point.values.scaled_acceleration = point.values.scaled_acceleration.template cast<double>();
-      LinearEquation::jacobian(linear_system_, to_double(t), to_double(h),
-                               S::Group::template cast<double>(q_n), linear_point, to_linear(z), derivatives,
-                               J);
+      linear_point.step = point.step.template cast<Linear>();
+      linear_point.q = S::Group::template cast<Linear>(point.q);
+      linear_point.values.velocity = point.values.velocity.template cast<Linear>();
+      linear_point.values.scaled_acceleration = point.values.scaled_acceleration.template cast<Linear>();
+      LinearEquation::jacobian(linear_system_, to_linear(t), to_linear(h),
+                               S::Group::template cast<Linear>(q_n), linear_point, linear(z), derivatives, J);
     }
-    audit_.jacobian();
     mass_scale_ = J.template topLeftCorner<m, m>().template lpNorm<Eigen::Infinity>();
     factorized_ = lu_.factorize(J);
     audit_.factorization(cause);
@@ -229,7 +227,7 @@ class NewtonKernel {
 
   StepResult failure(Outcome outcome, const Unknowns& r) {
     factorized_ = false;
-    return {outcome, to_linear(r).template lpNorm<Eigen::Infinity>()};
+    return {outcome, to_double(linear(r).template lpNorm<Eigen::Infinity>())};
   }
 
   // A factorization is worth keeping while one more step with it costs less than the steps since it was made
@@ -240,8 +238,8 @@ class NewtonKernel {
   LinearSystem linear_system_;
   Lu lu_;
   bool factorized_ = false;
-  double mass_scale_ = 0.0;
-  double rate_ = 1.0;  // contraction seen with this factorization
+  Linear mass_scale_ = 0.0;
+  Linear rate_ = 1.0;  // contraction seen with this factorization
   double spent_ = 0.0;
   int steps_ = 0;  // steps since the factorization
   int last_ = 0;   // iterations of the last one

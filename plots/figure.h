@@ -33,6 +33,8 @@ struct Series {
   bool secondary = false;
   /// A broad line and large marks, drawn beneath: for a curve that others may cover for part of its length.
   bool broad = false;
+  /// Mark of another style; negative: that of `style`. So that colours tell groups apart and marks their members.
+  int mark = -1;
   /// Joined in this order. A y that is not finite counts as a failure at its x; a y that a logarithmic axis
   /// cannot show (an error of exactly 0), or beyond an explicit range, is drawn as an open triangle at that
   /// edge.
@@ -87,6 +89,8 @@ struct Figure {
   std::vector<Panel> panels = {};
   /// One legend below all panels; else one below each panel. Never inside a panel.
   bool shared_legend = true;
+  /// What the legend says of the crosses of failed runs; empty: "failed run".
+  std::string failures = {};
 };
 
 /// Draws the figure into each of `outputs`; the ending chooses: .svg, .pdf or .png. Either all outputs

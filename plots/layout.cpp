@@ -65,13 +65,14 @@ Layout lay_out(const Figure& figure) {
   double own = 0;
   double shared = 0;
   if (figure.shared_legend) {
-    layout.legend = legend_of(panels, axes, layout.width - 20);
+    layout.legend = legend_of(panels, axes, layout.width - 20, figure.failures);
     shared = layout.legend.height();
     layout.legend_place = {0, 0, layout.width, shared};
   } else {
     for (std::size_t index = 0; index < panels.size(); ++index) {
       Legend& legend = layout.panels[index].legend;
-      legend = legend_of(panels.subspan(index, 1), std::span(axes).subspan(index, 1), cell_width - 10);
+      legend = legend_of(panels.subspan(index, 1), std::span(axes).subspan(index, 1), cell_width - 10,
+                         figure.failures);
       own = std::max(own, legend.height());
     }
   }

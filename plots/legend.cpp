@@ -47,15 +47,16 @@ std::vector<double> Legend::column_widths() const {
   return result;
 }
 
-Legend legend_of(std::span<const Panel> panels, std::span<const Axes> axes, double width) {
-  std::vector<std::tuple<std::string, int, bool>> seen;
+Legend legend_of(std::span<const Panel> panels, std::span<const Axes> axes, double width,
+                 const std::string& failures_text) {
+  std::vector<std::tuple<std::string, int, bool, int>> seen;
   std::vector<const Series*> primary;
   std::vector<const Series*> secondary;
   bool failures = false;
   bool edges = false;
   for (std::size_t index = 0; index < panels.size(); ++index) {
     for (const Series& series : panels[index].series) {
-      const auto key = std::tuple(series.label, series.style, series.secondary);
+      const auto key = std::tuple(series.label, series.style, series.secondary, series.mark);
       if (series.label.empty() || std::ranges::find(seen, key) != seen.end()) continue;
       seen.push_back(key);
       (series.secondary ? secondary : primary).push_back(&series);
@@ -74,7 +75,9 @@ Legend legend_of(std::span<const Panel> panels, std::span<const Axes> axes, doub
   }
   if (!paired) std::ranges::for_each(secondary, add);
 
-  if (failures) result.entries.push_back({failure_look(legend_grey, false), "failed run"});
+  if (failures)
+    result.entries.push_back(
+        {failure_look(legend_grey, false), failures_text.empty() ? "failed run" : failures_text});
   if (edges) result.entries.push_back({below_look(legend_grey), "beyond the axis"});
 
   const std::size_t step = paired ? 2 : 1;

@@ -31,6 +31,7 @@ struct Legend {
 };
 
 /// The legend of the panels, as wide as it may be.
-Legend legend_of(std::span<const Panel> panels, std::span<const Axes> axes, double width);
+Legend legend_of(std::span<const Panel> panels, std::span<const Axes> axes, double width,
+                 const std::string& failures_text);
 
 }  // namespace liebench

@@ -24,9 +24,13 @@ constexpr std::array<Style, style_count> styles{{
     {"#CC79A7", 5, 4},    // purple, square
 }};
 
-const Style& style_of(const Series& series) {
-  const int index = series.style % style_count;
+const Style& style_at(int number) {
+  const int index = number % style_count;
   return styles[static_cast<std::size_t>(index < 0 ? index + style_count : index)];
+}
+
+const Style& style_of(const Series& series) {
+  return style_at(series.style);
 }
 
 }  // namespace
@@ -38,9 +42,10 @@ std::string_view colour_of(const Series& series) {
 // A second variant's marks are the larger ones: a ring around the filled mark where both agree.
 Look look_of(const Series& series) {
   const Style& style = style_of(series);
-  if (series.secondary) return {style.colour, "(12,7)", 0.8, style.open_mark, series.broad ? 1.1 : 0.68};
-  if (series.broad) return {style.colour, "1", 3.2, style.filled_mark, 0.55};
-  return {style.colour, "1", 1.4, style.filled_mark, 0.34};
+  const Style& marks = series.mark < 0 ? style : style_at(series.mark);
+  if (series.secondary) return {style.colour, "(12,7)", 0.8, marks.open_mark, series.broad ? 1.1 : 0.68};
+  if (series.broad) return {style.colour, "1", 3.2, marks.filled_mark, 0.55};
+  return {style.colour, "1", 1.4, marks.filled_mark, 0.34};
 }
 
 Look failure_look(std::string_view colour, bool secondary) {

@@ -7,8 +7,10 @@
 #include "harness/errors.h"
 #include "harness/execute.h"
 #include "harness/progress.h"
+#include "harness/record.h"
 #include "harness/record_file.h"
 #include "harness/study.h"
+#include "harness/timing.h"
 
 namespace liebench {
 
@@ -47,6 +49,31 @@ void summarise(const std::map<std::string, int>& outcomes, std::size_t skipped) 
   fmt::print(stderr, "runs: {}\n", text);
 }
 
+// Times the runs whose records are there, ended well and hold no time yet.
+template <class Record, class Take>
+void add_times(const std::vector<RunSpec>& runs, const std::string& study, const Record& record,
+               const Take& take) {
+  std::vector<RunSpec> timed;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!is_timed(runs[i])) continue;
+    const Json row = record(i);
+    if (row.at("outcome") != "ok" || row.contains("time")) continue;
+    timed.push_back(runs[i]);
+    places.push_back(i);
+  }
+  Progress progress(study + ", times", double(timed.size()));
+  std::size_t unsteady = 0;
+  time_runs(timed, TimingRules{}, ReferenceCache(), progress, [&](std::size_t index, const RunTimes& times) {
+    if (!times.steady) ++unsteady;
+    take(places[index], with_time(record(places[index]), times));
+  });
+  if (unsteady > 0)
+    progress.message(
+        fmt::format("times: {} of {} runs are unsteady (marked in their records); is the machine quiet?",
+                    unsteady, timed.size()));
+}
+
 void run(const RunOptions& options) {
   const Shard shard = parse_shard(options.shard);
   const Study study = read_study(read_json_file(options.study));
@@ -77,6 +104,16 @@ void run(const RunOptions& options) {
         lines[index] = record.dump();
     });
   }
+  if (!options.no_timing) {
+    if (file)
+      add_times(
+          runs, study.name, [&](std::size_t i) { return file->record(keys[i]); },
+          [&](std::size_t, const Json& record) { file->append(record); });
+    else
+      add_times(
+          runs, study.name, [&](std::size_t i) { return Json::parse(lines[i]); },
+          [&](std::size_t i, const Json& record) { lines[i] = record.dump(); });
+  }
   if (file) {
     file->sort(keys);
   } else {
@@ -89,8 +126,8 @@ void run(const RunOptions& options) {
 }  // namespace
 
 void add_run(CLI::App& app, int&) {
-  CLI::App* command =
-      app.add_subcommand("run", "Run a study; rows that are already in the file are not run again");
+  CLI::App* command = app.add_subcommand(
+      "run", "Run a study; rows that are already in the file are not run again, nor timed again");
   auto options = std::make_shared<RunOptions>();
   command->add_option("study", options->study, "the study, a JSON file (docs/studies.md)")
       ->required()
@@ -103,10 +140,15 @@ void add_run(CLI::App& app, int&) {
       ->capture_default_str();
   command->add_option("--shard", options->shard, "run every N-th row only, beginning with the I-th")
       ->type_name("I/N");
-  command->add_flag("--no-timing", options->no_timing, "accepted for scripts: no run is timed yet");
+  command->add_flag("--no-timing", options->no_timing,
+                    "leave out the timed runs: errors and counts alone, the same bytes every time");
   command->footer(
-      "Example:\n  liebench run harness/studies/figure4.json --out figure4.jsonl --jobs 2\n"
-      "A study killed half-way goes on where it stopped when the same command is given again.");
+      "Examples:\n  liebench run harness/studies/figure4.json --out figure4.jsonl --jobs 2\n"
+      "  liebench run study.json --out part2.jsonl --shard 2/8 --no-timing     one of eight machines\n"
+      "A study killed half-way goes on where it stopped when the same command is given again. The runs in "
+      "double\n"
+      "that ended well are timed when all others are done, one at a time on one processor, whatever --jobs "
+      "says.");
   command->callback([options] { run(*options); });
 }
 

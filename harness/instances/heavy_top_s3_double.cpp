@@ -2,3 +2,6 @@
 
 template liebench::RunResult liebench::run_heavy_top<liebench::HeavyTopS3, double>(const RunRequest&,
                                                                                    const HeavyTopReference&);
+
+template std::unique_ptr<liebench::TimedRun> liebench::timed_heavy_top<liebench::HeavyTopS3>(
+    const RunRequest&, const HeavyTopReference&);

@@ -15,6 +15,7 @@ class NoProblem final : public PreparedProblem {
  public:
   explicit NoProblem(double reference_error = 1e-30) : reference_error_(reference_error) {}
   RunResult run(std::string_view, Precision, const RunRequest&) const override { return {}; }
+  std::unique_ptr<TimedRun> timed(std::string_view, const RunRequest&) const override { return nullptr; }
   std::string reference_method() const override { return "none"; }
   double reference_error() const override { return reference_error_; }
 

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+
+#include "groups/audited_group.h"
+#include "problems/system.h"
+
+namespace liebench {
+
+// Evaluations of a system, by what each of them needs exactly once.
+struct SystemCalls {
+  std::uint64_t forces = 0;       // g(t, q, v): residuals of the equations of motion
+  std::uint64_t stiffnesses = 0;  // K: Newton matrices
+
+  // Of this thread, since it began.
+  static SystemCalls& counts() {
+    thread_local SystemCalls counts;
+    return counts;
+  }
+};
+
+inline SystemCalls operator-(const SystemCalls& a, const SystemCalls& b) {
+  return {a.forces - b.forces, a.stiffnesses - b.stiffnesses};
+}
+
+// The system S on a group that counts its calls; it counts its own evaluations. For audit runs.
+template <MechanicalSystem S>
+class Audited : public S {
+ public:
+  using typename S::Scalar;
+  using Group = AuditedGroup<typename S::Group>;
+  using Element = typename Group::Element;
+  using Tangent = typename Group::Tangent;
+  using Multipliers = Eigen::Matrix<Scalar, S::constraints, 1>;
+  template <class U>
+  using rebind = Audited<typename S::template rebind<U>>;
+
+  explicit Audited(const S& system) : S(system) {}
+
+  template <class U>
+  rebind<U> cast() const {
+    return rebind<U>(S::template cast<U>());
+  }
+  auto force(const Scalar& t, const Element& q, const Tangent& v) const {
+    ++SystemCalls::counts().forces;
+    return S::force(t, q, v);
+  }
+  auto stiffness(const Scalar& t, const Element& q, const Tangent& v, const Tangent& a,
+                 const Multipliers& lambda) const {
+    ++SystemCalls::counts().stiffnesses;
+    return S::stiffness(t, q, v, a, lambda);
+  }
+};
+
+}  // namespace liebench

@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "harness/execute.h"
+#include "harness/progress.h"
+#include "harness/strict_json.h"
+#include "tests/support/run_program.h"
+
+// What a run costs, against what the definitions of the methods say.
+
+namespace liebench {
+namespace {
+
+class AuditTest : public testing::Test {
+ protected:
+  std::vector<Json> run(const std::string& integrators, const std::string& rest) const {
+    const Study study = read_study(parse_json(
+        R"({"name": "audit", "problems": [{"name": "heavy_top", "formulation": ["SO3", "R3xSO3", "SE3"]}], "integrators": )" +
+            integrators + ", " + rest + "}",
+        "audit"));
+    std::vector<Json> records(study.runs.size());
+    Progress progress("", 1.0);
+    execute(study.runs, 2, ReferenceCache(cache_.path()), progress,
+            [&](std::size_t i, const Json& record) { records[i] = record; });
+    return records;
+  }
+
+  static std::uint64_t count(const Json& record, const char* what) {
+    return record.at("cost").at(what).get<std::uint64_t>();
+  }
+  // Every evaluation of the step equation takes one exponential: an iteration, the state at its end, a new matrix.
+  static std::uint64_t evaluations(const Json& record) {
+    return count(record, "newton_iterations") + own_steps(record) + count(record, "jacobians");
+  }
+  static std::uint64_t start_factorizations(const Json& record) {
+    return record.at("cost").at("factorizations_by_cause").at("start").get<std::uint64_t>();
+  }
+  static std::uint64_t own_steps(const Json& record) {
+    return record.at("steps").get<std::uint64_t>() + 1 - record.at("options").at("k").get<std::uint64_t>();
+  }
+
+ private:
+  TemporaryFolder cache_;
+};
+
+const std::string from_reference = R"("step_sizes": [1e-3], "t_end": 0.2, "start": "reference")";
+
+TEST_F(AuditTest, BLieDF2ndTakesOneCommutatorAStepAndNoLogarithmAfterTheStart) {
+  const auto records = run(R"([{"name": "bliedf2nd", "k": [3, 4]}])", from_reference);
+  ASSERT_EQ(records.size(), 6u);
+  for (const Json& record : records) {
+    EXPECT_EQ(record.at("outcome"), "ok");
+    EXPECT_EQ(count(record, "commutators"), own_steps(record)) << record.at("options");
+    EXPECT_EQ(count(record, "log"), record.at("options").at("k").get<std::uint64_t>() - 1);
+    EXPECT_EQ(count(record, "tangent_inverse"), 0u);
+    EXPECT_EQ(count(record, "exp"), evaluations(record));
+  }
+}
+
+TEST_F(AuditTest, WithoutTheCorrectionThereIsNoCommutator) {
+  for (const Json& record :
+       run(R"([{"name": "bliedf2nd", "k": [2, 3, 4], "correction": false}, {"name": "bliedf2nd", "k": 2}])",
+           from_reference))
+    EXPECT_EQ(count(record, "commutators"), 0u) << record.at("options");
+}
+
+TEST_F(AuditTest, FaltinsensVariantsTakeLogarithmsOrMoreCommutators) {
+  for (const Json& record :
+       run(R"([{"name": "faltinsen_bdf", "k": [3, 4], "variant": ["exact", "bch"]}])", from_reference)) {
+    const auto k = record.at("options").at("k").get<std::uint64_t>();
+    if (record.at("options").at("variant") == "exact") {
+      EXPECT_EQ(count(record, "log"), k - 1 + (k - 2) * own_steps(record));
+      // T once in each evaluation; those of the Newton matrices come on top.
+      EXPECT_GT(count(record, "tangent"), evaluations(record));
+    } else {
+      EXPECT_EQ(count(record, "log"), k - 1);
+      // In a step 1 (k = 3) or 3 (k = 4) of the history, 1 or 2 in each evaluation.
+      EXPECT_GE(count(record, "commutators"),
+                (2 * k - 5) * own_steps(record) + (k - 2) * evaluations(record));
+    }
+  }
+}
+
+TEST_F(AuditTest, CausesAndKindsSumUp) {
+  for (const Json& record :
+       run(R"([{"name": "bliedf2nd", "k": 3}, {"name": "generalized_alpha"}])",
+           R"("step_sizes": [5e-3, 1e-3], "t_end": 0.2, "precision": ["double", "extended"])")) {
+    const Json& cost = record.at("cost");
+    std::uint64_t causes = 0, kinds = 0;
+    for (const auto& cause : cost.at("factorizations_by_cause").items())
+      causes += cause.value().get<std::uint64_t>();
+    EXPECT_EQ(causes, count(record, "factorizations"));
+    EXPECT_EQ(count(record, "jacobians"), causes - start_factorizations(record));
+    // Every iteration evaluates the forces once; the start does so, too.
+    EXPECT_GT(count(record, "residuals"), count(record, "newton_iterations"));
+    const bool in_double = record.at("precision") == "double";
+    EXPECT_EQ(cost.contains("flops"), in_double);
+    EXPECT_EQ(cost.contains("flops_by_kind"), in_double);
+    if (!in_double) continue;
+    for (const auto& kind : cost.at("flops_by_kind").items()) kinds += kind.value().get<std::uint64_t>();
+    EXPECT_EQ(kinds, count(record, "flops"));
+    // A 3 x 3 back-substitution alone takes 15.
+    EXPECT_GT(count(record, "flops"), 15 * count(record, "solves"));
+  }
+}
+
+TEST_F(AuditTest, TheStartIsPartOfTheCost) {
+  const auto own = run(R"([{"name": "bliedf2nd", "k": 3, "modified_start": false}])",
+                       R"("step_sizes": [1e-3], "t_end": 0.2, "start": "self")");
+  const auto given = run(R"([{"name": "bliedf2nd", "k": 3, "modified_start": false}])", from_reference);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    EXPECT_EQ(count(given[i], "tangent_inverse"), 0u);
+    EXPECT_EQ(count(own[i], "tangent_inverse"), 7u * 3u);  // stages, steps to the points t_1, t_2, t_3
+    EXPECT_GT(count(own[i], "flops"), count(given[i], "flops"));
+  }
+}
+
+TEST_F(AuditTest, AFailedRunHasItsCountsUpToTheFailure) {
+  for (const Json& record : run(R"([{"name": "bliedf2nd", "k": 2}])",
+                                R"("step_sizes": [0.05], "t_end": 0.5, "start": "reference")")) {
+    EXPECT_NE(record.at("outcome"), "ok");
+    EXPECT_TRUE(record.at("cost").contains("exp"));
+  }
+}
+
+}  // namespace
+}  // namespace liebench
