@@ -2,7 +2,7 @@
 
 #include "harness/cli/commands.h"
 #include "harness/errors.h"
-#include "harness/record.h"
+#include "harness/record_reader.h"
 #include "harness/select.h"
 #include "plots/figure.h"
 #include "plots/gnuplot.h"
@@ -21,9 +21,8 @@ struct PlotOptions {
 
 void plot(const PlotOptions& options) {
   require_gnuplot();
-  std::vector<Json> records;
-  for (const std::string& file : options.files)
-    for (Json& record : read_records(file)) records.push_back(std::move(record));
+  const std::vector<Json> records =
+      read_records(std::vector<std::filesystem::path>(options.files.begin(), options.files.end()));
   if (records.empty()) throw InputError(options.files.front(), "holds no records");
   const Quantity quantity{options.y, options.norm};
   Panel panel{.title = "", .x_label = "step size h in s", .y_label = plain_text(describe(quantity))};

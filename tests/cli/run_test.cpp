@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "harness/embedded.h"
-#include "harness/record.h"
+#include "harness/record_reader.h"
 #include "tests/cli/program_test.h"
 #include "tests/harness/json_schema.h"
 
