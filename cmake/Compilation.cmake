@@ -13,6 +13,13 @@ function(liebench_cold target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
+# liebench_precompile(TARGET HEADERS...): the headers that every source of TARGET reads anyhow, read once.
+function(liebench_precompile target)
+  if(NOT LIEBENCH_SYNTAX_ONLY)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
+
 # Clang's front end, where its warnings come from, without its back end: what is called an object is Clang's file of
 # diagnostics (a second command would do, too, but clang-tidy reads compile_commands.json); a library and a program are
 # empty files.

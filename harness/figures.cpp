@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "harness/correction_stability.h"
+#include "harness/cost_report.h"
 #include "harness/formulations.h"
 #include "harness/select.h"
 
@@ -250,7 +251,8 @@ Figure formulations_figure(const std::vector<Json>& records) {
           if (record.at("integrator") != "bliedf2nd" || !has_option(record, "k", 3) ||
               record.at("formulation") != formulations[i] || record.at("options").value("form", "") != form)
             continue;
-          const double x = cost ? record.at("cost").at("flops").get<double>() : record.at("step_size").get<double>();
+          const double x =
+              cost ? record.at("cost").at("flops").get<double>() : record.at("step_size").get<double>();
           if (const auto error = error_of(record, {"q", "max_absolute"}))
             series.points.push_back({x, *error});
           else
@@ -292,6 +294,7 @@ const std::vector<PaperFigure>& paper_figures() {
       {"faltinsen_bdf", {"faltinsen_bdf.json"}},
       {"correction_stability", {"correction_stability.json"}},
       {"formulations", {"formulations.json"}},
+      {"cost_accuracy", {"cost_accuracy.json"}, true},
       {"verification", {"verification.json", "verification_own_start.json"}}};
   return list;
 }
@@ -307,6 +310,7 @@ std::map<std::string, Figure> draw_paper_figure(const PaperFigure& figure, const
   if (figure.name == "faltinsen_bdf") return {{"faltinsen_bdf", faltinsen_figure(records)}};
   if (figure.name == "correction_stability")
     return {{"correction_stability", correction_stability_figure(records)}};
+  if (figure.name == "cost_accuracy") return {{"cost_accuracy", cost_accuracy_figure(records)}};
   if (figure.name == "formulations") return {{"formulations", formulations_figure(records)}};
   if (figure.name == "stabilized_index2") return {{"stabilized_index2", stabilized_figure(records)}};
   if (figure.name == "figure2")

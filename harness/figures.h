@@ -17,6 +17,7 @@ namespace liebench {
 struct PaperFigure {
   std::string_view name;
   std::vector<std::string_view> studies;  // files in harness/studies
+  bool timed = false;                     // its runs in double are timed, too
 };
 
 // Figures 1 to 4 of the paper, then the others, in this order.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "harness/errors.h"
 #include "harness/provenance.h"
@@ -138,52 +137,6 @@ Json make_record(const RunSpec& run, const RunResult& result, const PreparedProb
   if (result.times) j["time"] = time_to_json(*result.times);
   j["provenance"] = provenance;
   return j;
-}
-
-Json parse_record(std::string_view line, const std::string& place) {
-  Json record = parse_json(line, place);
-  if (!record.is_object() || !record.contains("schema") || !record.contains("key"))
-    throw InputError(place, "is not a record of liebench: the keys \"schema\" and \"key\" are missing");
-  if (record["schema"] != record_schema)
-    throw InputError(place, fmt::format("record schema {}; this program reads {}", record["schema"].dump(),
-                                        record_schema));
-  // What tables and plots rely on.
-  const auto require = [&](const Json& object, const char* key, bool (Json::*is)() const noexcept) {
-    if (!object.contains(key) || !(object[key].*is)())
-      throw InputError(
-          place, fmt::format("is not a whole record of liebench: \"{}\" is missing or of another type", key));
-  };
-  for (const char* key :
-       {"key", "study", "problem", "formulation", "integrator", "start", "precision", "outcome"})
-    require(record, key, &Json::is_string);
-  for (const char* key : {"parameters", "options", "reference", "cost"})
-    require(record, key, &Json::is_object);
-  for (const char* key : {"step_size", "steps", "t_0", "t_end"}) require(record, key, &Json::is_number);
-  require(record["reference"], "error_estimate", &Json::is_number);
-  if (record["outcome"] == "ok") {
-    require(record, "errors", &Json::is_object);
-  } else {
-    require(record, "failure", &Json::is_object);
-    require(record["failure"], "time", &Json::is_number);
-    require(record["failure"], "message", &Json::is_string);
-  }
-  return record;
-}
-
-std::vector<Json> read_records(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code code;
-  if (!stream || std::filesystem::is_directory(file, code))
-    throw InputError(file.string(), "cannot be read; a file of records (JSON Lines) is expected here");
-  std::vector<Json> records;
-  std::size_t number = 0;
-  for (std::string line; std::getline(stream, line);) {
-    ++number;
-    if (line.empty()) continue;
-    const std::string place = fmt::format("{}:{}", file.string(), number);
-    records.push_back(parse_record(line, place));
-  }
-  return records;
 }
 
 }  // namespace liebench

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "harness/errors.h"
-#include "harness/record.h"
+#include "harness/record_reader.h"
 
 namespace liebench {
 

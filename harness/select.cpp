@@ -3,22 +3,71 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
+#include <unordered_map>
 
 namespace liebench {
 
 namespace {
 
-Json identity_of(const Json& record) {
-  Json id;
-  for (const char* key :
-       {"problem", "formulation", "parameters", "integrator", "options", "start", "precision", "t_0"})
-    if (record.contains(key)) id[key] = record[key];
-  // Runs over a fixed number of steps end elsewhere for every step size.
-  const char* length = record.contains("local_steps") ? "local_steps" : "t_end";
-  if (record.contains(length)) id[length] = record[length];
-  return id;
+constexpr std::array identity_keys{"problem", "formulation", "parameters", "integrator",
+                                   "options", "start",       "precision",  "t_0"};
+
+// Runs over a fixed number of steps end elsewhere for every step size.
+const char* length_key(const Json& record) {
+  return record.contains("local_steps") ? "local_steps" : "t_end";
+}
+
+std::size_t mixed(std::size_t seed, std::size_t value) {
+  return seed ^ (value + 0x9e3779b97f4a7c15U + (seed << 6U) + (seed >> 2U));
+}
+
+// Equal values have equal hashes, 1 and 1.0 as well; nothing is copied or printed.
+std::size_t hash_of(const Json& value) {
+  std::size_t seed = 0;
+  if (value.is_object()) {
+    for (const auto& item : value.items())
+      seed = mixed(mixed(seed, std::hash<std::string>{}(item.key())), hash_of(item.value()));
+  } else if (value.is_array()) {
+    for (const Json& element : value) seed = mixed(seed, hash_of(element));
+  } else if (value.is_number()) {
+    seed = std::hash<double>{}(value.get<double>());
+  } else if (value.is_string()) {
+    seed = std::hash<std::string>{}(value.get_ref<const std::string&>());
+  } else if (value.is_boolean()) {
+    seed = value.get<bool>() ? 1 : 2;
+  }
+  return mixed(seed, value.is_number() ? 0 : std::size_t(value.type()));
+}
+
+template <class Visit>
+void for_identity(const Json& record, const Visit& visit) {
+  for (const char* key : identity_keys)
+    if (const auto found = record.find(key); found != record.end()) visit(key, *found);
+  const char* length = length_key(record);
+  if (const auto found = record.find(length); found != record.end()) visit(length, *found);
+}
+
+std::size_t identity_hash(const Json& record) {
+  std::size_t seed = 0;
+  for_identity(record, [&](const char* key, const Json& value) {
+    seed = mixed(mixed(seed, std::hash<std::string_view>{}(key)), hash_of(value));
+  });
+  return seed;
+}
+
+bool has_identity(const Json& record, const Json& identity) {
+  std::size_t count = 0;
+  bool same = true;
+  for_identity(record, [&](const char* key, const Json& value) {
+    ++count;
+    if (!same) return;
+    const auto found = identity.find(key);
+    same = found != identity.end() && *found == value;
+  });
+  return same && count == identity.size();
 }
 
 // Leaves of the identity as "name" -> text, so that labels can leave out what all curves share.
@@ -75,6 +124,12 @@ void label(std::vector<Curve>& curves) {
 
 }  // namespace
 
+Json identity_of(const Json& record) {
+  Json identity;
+  for_identity(record, [&](const char* key, const Json& value) { identity[key] = value; });
+  return identity;
+}
+
 std::string describe(const Quantity& quantity) {
   const std::string unit = quantity.component == "lambda" ? " in N" : "";
   if (quantity.norm == "end_relative") return "relative error of " + quantity.component + " at the end";
@@ -94,12 +149,16 @@ std::optional<double> error_of(const Json& record, const Quantity& quantity) {
 
 std::vector<Curve> curves(const std::vector<Json>& records) {
   std::vector<Curve> list;
-  std::map<std::string, std::size_t> index;
+  std::unordered_map<std::size_t, std::vector<std::size_t>> index;  // more than one where hashes collide
   for (const Json& record : records) {
-    Json id = identity_of(record);
-    const auto [place, fresh] = index.try_emplace(id.dump(), list.size());
-    if (fresh) list.push_back({.label = "", .identity = std::move(id), .records = {}});
-    list[place->second].records.push_back(&record);
+    std::vector<std::size_t>& places = index[identity_hash(record)];
+    auto place = std::find_if(places.begin(), places.end(),
+                              [&](std::size_t i) { return has_identity(record, list[i].identity); });
+    if (place == places.end()) {
+      place = places.insert(places.end(), list.size());
+      list.push_back({.label = "", .identity = identity_of(record), .records = {}});
+    }
+    list[*place].records.push_back(&record);
   }
   for (Curve& curve : list)
     std::stable_sort(curve.records.begin(), curve.records.end(), [](const Json* a, const Json* b) {

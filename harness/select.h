@@ -25,11 +25,14 @@ std::string describe(const Quantity& quantity);
 // The error of a record; empty where the run failed or the quantity does not apply.
 std::optional<double> error_of(const Json& record, const Quantity& quantity);
 
+// What the records of one curve share: problem, formulation, parameters, integrator, options, start,
+// precision, t_0, and t_end or local_steps.
+Json identity_of(const Json& record);
+
 // Records of one curve: they differ in the step size alone.
 struct Curve {
-  std::string label;  // what sets it apart from the other curves of its set
-  Json
-      identity;  // problem, formulation, parameters, integrator, options, start, precision, t_0, t_end or local_steps
+  std::string label;                 // what sets it apart from the other curves of its set
+  Json identity;                     // identity_of each of its records
   std::vector<const Json*> records;  // by falling step size
 };
 

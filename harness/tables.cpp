@@ -45,6 +45,12 @@ Table outcomes_table(const std::vector<Json>& records) {
                             .unit = "s",
                             .kind = ColumnKind::number,
                             .alignment = Alignment::right},
+                           {.header = "step", .kind = ColumnKind::integer, .alignment = Alignment::right},
+                           {.header = "residual",
+                            .kind = ColumnKind::number,
+                            .alignment = Alignment::right,
+                            .digits = 2,
+                            .notation = Notation::scientific},
                            {.header = "message"}});
   for (const Curve& curve : curves(records)) {
     std::map<std::string, std::vector<const Json*>> by_outcome;
@@ -55,12 +61,16 @@ Table outcomes_table(const std::vector<Json>& records) {
       const double smallest = runs.back()->at("step_size").get<double>();
       const std::string sizes = runs.size() == 1 ? fmt::format("{:.3g}", largest)
                                                  : fmt::format("{:.3g} to {:.3g}", largest, smallest);
-      Cell time, message;
-      if (runs.front()->contains("failure")) {
-        time = runs.front()->at("failure").at("time").get<double>();
-        message = runs.front()->at("failure").at("message").get<std::string>();
+      Cell time, step, residual, message;
+      if (const auto failure = runs.front()->find("failure"); failure != runs.front()->end()) {
+        time = failure->at("time").get<double>();
+        message = failure->at("message").get<std::string>();
+        if (failure->contains("step") && failure->at("step").is_number_integer())
+          step = failure->at("step").get<std::int64_t>();
+        if (failure->contains("residual") && failure->at("residual").is_number())
+          residual = failure->at("residual").get<double>();
       }
-      table.add_row({curve.label, outcome, std::int64_t(runs.size()), sizes, time, message});
+      table.add_row({curve.label, outcome, std::int64_t(runs.size()), sizes, time, step, residual, message});
     }
   }
   return table;

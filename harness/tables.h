@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "harness/strict_json.h"
@@ -12,5 +13,9 @@ Table orders_table(const std::vector<Json>& records);
 
 // How many runs of every curve ended how, and where the first of them failed.
 Table outcomes_table(const std::vector<Json>& records);
+
+// Counts and time of one step of every curve, at its finest run that ended well or at the step size given.
+// Columns that no record fills are left out.
+Table costs_table(const std::vector<Json>& records, std::optional<double> step_size = {});
 
 }  // namespace liebench

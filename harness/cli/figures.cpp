@@ -5,13 +5,16 @@
 #include <algorithm>
 
 #include "harness/cli/commands.h"
+#include "harness/cost_report.h"
 #include "harness/embedded.h"
 #include "harness/errors.h"
 #include "harness/execute.h"
 #include "harness/formulations.h"
 #include "harness/progress.h"
+#include "harness/record.h"
 #include "harness/record_file.h"
 #include "harness/study.h"
+#include "harness/timing.h"
 #include "harness/verification.h"
 #include "plots/gnuplot.h"
 
@@ -46,6 +49,24 @@ std::string json_lines(const std::vector<Json>& records) {
   std::string text;
   for (const Json& record : records) text += record.dump() + '\n';
   return text;
+}
+
+// The times of the figures that show them, after all other runs.
+void add_times(const std::vector<PaperFigure>& chosen, const std::vector<RunSpec>& runs,
+               const std::vector<std::size_t>& ends, std::vector<Json>& records) {
+  std::vector<RunSpec> timed;
+  std::vector<std::size_t> places;
+  for (std::size_t number = 0, i = 0; number < chosen.size(); ++number)
+    for (; i < ends[number]; ++i)
+      if (chosen[number].timed && is_timed(runs[i]) && records[i].at("outcome") == "ok") {
+        timed.push_back(runs[i]);
+        places.push_back(i);
+      }
+  Progress progress("times", double(timed.size()));
+  time_runs(timed, TimingRules{}, ReferenceCache(), progress, [&](std::size_t index, const RunTimes& times) {
+    Json& record = records[places[index]];
+    record = with_time(record, times);
+  });
 }
 
 int figures(const FigureOptions& options) {
@@ -85,6 +106,8 @@ int figures(const FigureOptions& options) {
     });
   }
 
+  if (!options.short_form) add_times(chosen, runs, ends, records);
+
   std::map<std::string, std::vector<Json>> by_study;
   for (std::size_t i = 0; i < runs.size(); ++i) by_study[runs[i].study].push_back(records[i]);
   std::size_t begin = 0;
@@ -94,6 +117,7 @@ int figures(const FigureOptions& options) {
                                  records.begin() + std::ptrdiff_t(ends[number]));
     begin = ends[number];
     write_whole(out / fmt::format("{}.jsonl", figure.name), json_lines(rows));
+    if (figure.name == "cost_accuracy") write_whole(out / "cost_accuracy.md", cost_report(rows));
     if (figure.name == "formulations") write_whole(out / "formulations.md", formulations_report(rows));
     std::filesystem::path shown = out / fmt::format("{}.jsonl", figure.name);
     for (const auto& [name, picture] : draw_paper_figure(figure, rows)) {
@@ -140,7 +164,7 @@ void add_figures(CLI::App& app, int& status) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_flag("--short", options->short_form,
-                    fmt::format("leave out step sizes below {} s: seconds instead of minutes",
+                    fmt::format("leave out step sizes below {} s, and times: seconds instead of minutes",
                                 shortest_step_of_short_form));
   command->footer(
       "Examples:\n  liebench figures                          all, into reproduced/\n"

@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
       "  liebench run study.json --out study.jsonl          run a study; resumes where it stopped\n"
       "  liebench table study.jsonl --kind orders           observed orders of convergence\n"
       "  liebench plot study.jsonl --out study.svg          convergence plot\n"
+      "  liebench compare old.jsonl new.jsonl               what changed; status 1 if something did\n"
       "  liebench describe bliedf2nd                        what a method or problem is and takes\n"
       "Exit status: 0 done (numerical failures are data); 1 a check found a difference; 2 bad input;\n"
       "3 the machine failed (disk full, gnuplot missing).");
@@ -58,6 +59,7 @@ int main(int argc, char** argv) {
   add_run(app, status);
   add_table(app, status);
   add_plot(app, status);
+  add_compare(app, status);
   add_list(app, status);
   add_describe(app, status);
   try {

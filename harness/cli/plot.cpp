@@ -4,8 +4,8 @@
 
 #include "harness/cli/commands.h"
 #include "harness/errors.h"
-#include "harness/record.h"
 #include "harness/record_plots.h"
+#include "harness/record_reader.h"
 #include "plots/gnuplot.h"
 
 namespace liebench {
@@ -20,6 +20,7 @@ struct PlotOptions {
   std::string norm = "end_relative";
   std::string out;
   bool one_panel = false;
+  bool skip_bad_lines = false;
 };
 
 RecordFigure make_figure(const PlotOptions& options, const std::vector<Json>& records) {
@@ -47,9 +48,9 @@ RecordFigure make_figure(const PlotOptions& options, const std::vector<Json>& re
 
 void plot(const PlotOptions& options) {
   require_gnuplot();
-  std::vector<Json> records;
-  for (const std::string& file : options.files)
-    for (Json& record : read_records(file)) records.push_back(std::move(record));
+  const std::vector<Json> records =
+      read_records(std::vector<std::filesystem::path>(options.files.begin(), options.files.end()),
+                   options.skip_bad_lines ? BadLines::skip : BadLines::reject);
   if (records.empty()) throw InputError(options.files.front(), "holds no records");
   const RecordFigure result = make_figure(options, records);
   if (result.left_out > 0)
@@ -88,6 +89,8 @@ void add_plot(CLI::App& app, int&) {
       ->capture_default_str();
   command->add_flag("--one-panel", options->one_panel,
                     "all curves in one panel, not a panel for each formulation and form");
+  command->add_flag("--skip-bad-lines", options->skip_bad_lines,
+                    "name lines that are no records on standard error and use the rest");
   command->add_option("--out", options->out, "picture; the ending chooses SVG, PDF or PNG")
       ->required()
       ->type_name("FILE.svg|pdf|png")

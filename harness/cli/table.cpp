@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 
 #include "harness/cli/commands.h"
+#include "harness/cost_accuracy.h"
 #include "harness/errors.h"
-#include "harness/record.h"
 #include "harness/record_file.h"
+#include "harness/record_reader.h"
 #include "harness/select.h"
 #include "harness/tables.h"
 
@@ -18,15 +19,40 @@ struct TableOptions {
   std::vector<std::string> files;
   std::string kind = "orders";
   std::string format = "markdown";
+  std::string y = "q";
+  std::string norm = "end_relative";
+  std::vector<double> targets = default_targets;
+  double step_size = 0;  // 0: the finest
+  bool skip_bad_lines = false;
   std::string out;
 };
 
+Table table_of(const std::vector<Json>& records, const TableOptions& options) {
+  if (options.kind == "orders") return orders_table(records);
+  if (options.kind == "outcomes") return outcomes_table(records);
+  if (options.kind == "costs") {
+    if (options.step_size == 0) return costs_table(records);
+    Table costs = costs_table(records, options.step_size);
+    if (costs.rows().empty())
+      throw InputError("--step-size", fmt::format("no run of step size {} ended well", options.step_size));
+    return costs;
+  }
+  const Quantity quantity{options.y, options.norm};
+  if (std::none_of(records.begin(), records.end(),
+                   [&](const Json& record) { return error_of(record, quantity).has_value(); }))
+    throw InputError("--y", fmt::format("no record has an error of {}; choose another component", options.y));
+  return cost_accuracy_table(records, quantity, options.targets);
+}
+
 void table(const TableOptions& options) {
-  std::vector<Json> records;
-  for (const std::string& file : options.files)
-    for (Json& record : read_records(file)) records.push_back(std::move(record));
+  for (const double target : options.targets)
+    if (!std::isfinite(target) || target <= 0)
+      throw InputError("--target", fmt::format("{} is not allowed; allowed: positive numbers", target));
+  const std::vector<Json> records =
+      read_records(std::vector<std::filesystem::path>(options.files.begin(), options.files.end()),
+                   options.skip_bad_lines ? BadLines::skip : BadLines::reject);
   if (records.empty()) throw InputError(options.files.front(), "holds no records");
-  const Table result = options.kind == "orders" ? orders_table(records) : outcomes_table(records);
+  const Table result = table_of(records, options);
   const TableFormat format = options.format == "latex" ? TableFormat::latex
                              : options.format == "csv" ? TableFormat::csv
                                                        : TableFormat::markdown;
@@ -45,15 +71,39 @@ void add_table(CLI::App& app, int&) {
   command->add_option("files", options->files, "files of records")->required()->type_name("FILE.jsonl...");
   command
       ->add_option("--kind", options->kind,
+                   "cost-accuracy: what a given error costs, the cheapest curve marked;\n"
+                   "costs: counts and time of a step;\n"
                    "orders: observed orders of convergence with window and uncertainty;\n"
                    "outcomes: how the runs ended, and where those stood that failed")
-      ->check(CLI::IsMember({"orders", "outcomes"}))
+      ->check(CLI::IsMember({"cost-accuracy", "costs", "orders", "outcomes"}))
       ->capture_default_str();
+  command->add_option("--target", options->targets, "cost-accuracy: the errors to reach")
+      ->delimiter(',')
+      ->type_name("E,...")
+      ->default_str("1e-2,1e-3,...,1e-10");
+  command->add_option("--y", options->y, "cost-accuracy: the error of which component")
+      ->check(CLI::IsMember({"q", "v", "lambda"}))
+      ->capture_default_str();
+  command->add_option("--norm", options->norm, "cost-accuracy: in which norm")
+      ->check(CLI::IsMember({"end_relative", "end_absolute", "max_absolute"}))
+      ->capture_default_str();
+  command
+      ->add_option("--step-size", options->step_size,
+                   "costs: of the runs of this step size; the finest that ended well where absent")
+      ->check(CLI::PositiveNumber)
+      ->type_name("H");
+  command->add_flag("--skip-bad-lines", options->skip_bad_lines,
+                    "name lines that are no records on standard error and use the others");
   command->add_option("--format", options->format, "how it is written")
       ->check(CLI::IsMember({"markdown", "latex", "csv"}))
       ->capture_default_str();
   command->add_option("--out", options->out, "file; standard output where absent")->type_name("FILE");
-  command->footer("Example:\n  liebench table figure4.jsonl --kind orders --format latex --out orders.tex");
+  command->footer(
+      "Examples:\n"
+      "  liebench table figure4.jsonl --kind orders --format latex --out orders.tex\n"
+      "  liebench table study.jsonl --kind cost-accuracy --y lambda --target 1e-3,1e-6\n"
+      "  liebench table study.jsonl --kind costs --step-size 1e-3 --format csv\n"
+      "The rules of each table: docs/tables.md");
   command->callback([options] { table(*options); });
 }
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "harness/embedded.h"
-#include "harness/record.h"
+#include "harness/record_reader.h"
 #include "tests/cli/program_test.h"
 #include "tests/harness/json_schema.h"
 

@@ -3,11 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
+#include <random>
 #include <set>
 #include <thread>
 
 #include "harness/embedded.h"
-#include "harness/record.h"
+#include "harness/record_reader.h"
 #include "tests/cli/program_test.h"
 #include "tests/harness/json_schema.h"
 
@@ -215,7 +217,7 @@ TEST_F(RunTest, LosesNothingThatHadEndedWhenItIsKilled) {
   write_study(long_study());
   std::string left;
   {
-    RunningProgram running(call({"run", "study.json", "--out", "runs.jsonl", "--jobs", "1"}));
+    RunningProgram running(call({"run", "study.json", "--out", "runs.jsonl", "--jobs", "1", "--no-timing"}));
     for (int i = 0; i < 15000 && lines_of(left).size() < 3; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
       if (std::filesystem::exists(folder / "runs.jsonl")) left = read_text(folder / "runs.jsonl");
@@ -233,13 +235,73 @@ TEST_F(RunTest, LosesNothingThatHadEndedWhenItIsKilled) {
     EXPECT_EQ(std::count(lines.begin(), lines.end(), line), 1) << "a row that had ended was run again";
 }
 
+// While runs end, while they are timed, while the file is sorted: every row that was there stays, and none is torn.
+TEST_F(RunTest, KilledAtAnyMomentManyTimesItLosesNoRowAndTearsNone) {
+  Json study = small_study();
+  study["integrators"][0]["k"] = {1, 2, 3};
+  write_study(study);
+  const std::string whole = run({"run", "study.json"}).out;
+  std::mt19937 random(20261125);
+  std::uniform_int_distribution<int> milliseconds(0, 150);
+  std::set<std::string> seen;
+  int kills = 0;
+  for (int i = 0; i < 40; ++i) {
+    RunningProgram running(call({"run", "study.json", "--out", "runs.jsonl", "--jobs", "2"}));
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds(random)));
+    running.kill();
+    if (running.wait().signal == SIGKILL) ++kills;
+    if (!std::filesystem::exists(folder / "runs.jsonl")) continue;
+    const std::string left = read_text(folder / "runs.jsonl");
+    EXPECT_TRUE(left.empty() || left.back() == '\n') << "a torn row";
+    std::set<std::string> keys;
+    for (const std::string& key : keys_of(left)) keys.insert(key);
+    EXPECT_TRUE(std::includes(keys.begin(), keys.end(), seen.begin(), seen.end())) << "a row is lost";
+    seen = keys;
+  }
+  EXPECT_GE(kills, 10);
+  const ProgramResult result = run_program(call({"run", "study.json", "--out", "runs.jsonl"}));
+  EXPECT_EQ(result.status, 0) << result.err;
+  const auto records = records_of(read_text(folder / "runs.jsonl")), expected = records_of(whole);
+  ASSERT_EQ(records.size(), expected.size());
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    EXPECT_EQ(records[i].at("key"), expected[i].at("key"));
+    EXPECT_EQ(records[i].at("errors"), expected[i].at("errors"));
+    EXPECT_EQ(records[i].at("cost"), expected[i].at("cost"));
+    EXPECT_TRUE(records[i].contains("time"));
+  }
+  // What was swept aside by a kill is no part of the folder for ever.
+  EXPECT_EQ(run({"compare", "runs.jsonl", "runs.jsonl"}).status, 0);
+}
+
+TEST_F(RunTest, TimesWhatEndedWellInDoubleOnceAndSaysSo) {
+  Json study = small_study();
+  study["precision"] = {"double", "extended"};
+  study["step_sizes"] = {0.1, 0.01};  // 0.1 fails
+  study["t_end"] = 0.4;
+  write_study(study);
+  ASSERT_EQ(run({"run", "study.json", "--out", "runs.jsonl"}).status, 0);
+  for (const Json& record : records_of(read_text(folder / "runs.jsonl")))
+    EXPECT_FALSE(record.contains("time"));
+  const ProgramCall timing = call({"run", "study.json", "--out", "runs.jsonl"});
+  EXPECT_TRUE(contains(run_program(timing).err, "runs: nothing to run; 8 already there\n"));
+  const std::string timed = read_text(folder / "runs.jsonl");
+  const JsonSchema schema(embedded_file("record.schema.json"));
+  for (const std::string& line : lines_of(timed)) {
+    ASSERT_EQ(schema.violations(line), "") << line;
+    const Json record = parse_json(line, "record");
+    EXPECT_EQ(record.contains("time"), record.at("precision") == "double" && record.at("outcome") == "ok");
+  }
+  run_program(timing);
+  EXPECT_TRUE(read_text(folder / "runs.jsonl") == timed) << "timed again";
+}
+
 TEST_F(RunTest, LosesNothingWhenTheDiskIsFull) {
   Json study = small_study();
   study["integrators"][0]["k"] = {1, 2, 3};  // 12 rows of 1.7 kB
   write_study(study);
   // The shell lets the program's files grow to 16 blocks of 512 bytes.
   ProgramCall limited = call({"-c", "trap '' XFSZ; ulimit -f 16; exec \"$0\" \"$@\"", LIEBENCH_PROGRAM, "run",
-                              "study.json", "--out", "runs.jsonl", "--jobs", "1"});
+                              "study.json", "--out", "runs.jsonl", "--jobs", "1", "--no-timing"});
   limited.program = "/bin/sh";
   const ProgramResult full = run_program(limited);
   EXPECT_EQ(full.status, 3) << full.err;
@@ -275,10 +337,11 @@ TEST_F(RunTest, LeavesAFileAloneThatAnotherProcessIsWriting) {
 
 TEST_F(RunTest, TwoAtOnceOnOneFileDoNotMixTheirRows) {
   write_study(long_study());
-  RunningProgram first(call({"run", "study.json", "--out", "runs.jsonl", "--jobs", "1"}));
+  RunningProgram first(call({"run", "study.json", "--out", "runs.jsonl", "--jobs", "1", "--no-timing"}));
   for (int i = 0; i < 15000 && !std::filesystem::exists(folder / "runs.jsonl"); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  const ProgramResult second = run({"run", "study.json", "--out", "runs.jsonl", "--jobs", "1"});
+  const ProgramResult second =
+      run({"run", "study.json", "--out", "runs.jsonl", "--jobs", "1", "--no-timing"});
   const ProgramResult one = first.wait();
   // Whoever comes second stops, or finds the work done.
   EXPECT_EQ(std::min(one.status, second.status), 0) << one.err << second.err;
@@ -324,7 +387,7 @@ TEST_F(RunTest, ShardsIntoOneFileEndAsTheWholeStudyDoes) {
 TEST_F(RunTest, ADamagedReferenceIsNoticedAndMadeAgain) {
   write_study(small_study());
   const TemporaryFolder cache;
-  ProgramCall with_cache = call({"run", "study.json"});
+  ProgramCall with_cache = call({"run", "study.json", "--no-timing"});
   with_cache.environment["LIEBENCH_CACHE"] = cache.path().string();
   const std::string good = without_dates(run_program(with_cache).out);
   const auto files = cache.entries();

@@ -67,7 +67,9 @@ TEST(OutcomesTable, CountsEveryRunOnce) {
             (std::vector<std::string>{"k = 2 newton_diverged 2 0.04 to 0.02", "k = 2 ok 5 0.01 to 0.000625",
                                       "k = 3 ok 5 0.01 to 0.000625", "k = 3 rotation_too_large 1 0.04"}));
   EXPECT_EQ(std::get<double>(table.rows()[3].at(4)), 1.5);
-  EXPECT_EQ(std::get<std::string>(table.rows()[3].at(5)), "it does not converge");
+  EXPECT_EQ(std::get<std::int64_t>(table.rows()[3].at(5)), 250);
+  EXPECT_EQ(std::get<double>(table.rows()[3].at(6)), 3.5);
+  EXPECT_EQ(std::get<std::string>(table.rows()[3].at(7)), "it does not converge");
   EXPECT_TRUE(std::holds_alternative<std::monostate>(table.rows()[1].at(4)));
 }
 

@@ -1,0 +1,258 @@
+#include "harness/record_reader.h"
+
+#include <fmt/format.h>
+#include <rapidjson/memorystream.h>
+#include <rapidjson/reader.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <optional>
+#include <thread>
+#include <unordered_map>
+#include <utility>
+
+#include "harness/errors.h"
+#include "harness/record.h"
+
+namespace liebench {
+
+namespace {
+
+// Throws InputError unless it has what tables and plots rely on.
+void require_record(const Json& record, const std::string& place) {
+  if (!record.is_object() || !record.contains("schema") || !record.contains("key"))
+    throw InputError(place, "is not a record of liebench: the keys \"schema\" and \"key\" are missing");
+  if (record["schema"] != record_schema)
+    throw InputError(place, fmt::format("record schema {}; this program reads {}", record["schema"].dump(),
+                                        record_schema));
+  const auto require = [&](const Json& object, const char* key, bool (Json::*is)() const noexcept) {
+    const auto found = object.find(key);
+    if (found == object.end() || !((*found).*is)())
+      throw InputError(
+          place, fmt::format("is not a whole record of liebench: \"{}\" is missing or of another type", key));
+  };
+  for (const char* key :
+       {"key", "study", "problem", "formulation", "integrator", "start", "precision", "outcome"})
+    require(record, key, &Json::is_string);
+  for (const char* key : {"parameters", "options", "reference", "cost"})
+    require(record, key, &Json::is_object);
+  for (const char* key : {"step_size", "steps", "t_0", "t_end"}) require(record, key, &Json::is_number);
+  require(record["reference"], "error_estimate", &Json::is_number);
+  if (record["outcome"] == "ok") {
+    require(record, "errors", &Json::is_object);
+  } else {
+    require(record, "failure", &Json::is_object);
+    require(record["failure"], "time", &Json::is_number);
+    require(record["failure"], "message", &Json::is_string);
+  }
+}
+
+// Events of rapidjson's parser into a record without `provenance` and `reference.method`.
+class Builder {
+ public:
+  Json take() { return std::move(root_); }
+
+  bool Null() { return add(Json(nullptr)); }
+  bool Bool(bool b) { return add(Json(b)); }
+  bool Int(int i) { return add(Json(std::int64_t{i})); }
+  bool Uint(unsigned u) { return add(Json(std::uint64_t{u})); }
+  bool Int64(std::int64_t i) { return add(Json(i)); }
+  bool Uint64(std::uint64_t u) { return add(Json(u)); }
+  bool Double(double d) { return add(Json(d)); }
+  bool RawNumber(const char*, rapidjson::SizeType, bool) { return false; }
+  bool String(const char* text, rapidjson::SizeType length, bool) {
+    if (!skipping()) return add(Json(std::string(text, length)));
+    left_out();
+    return true;
+  }
+  bool StartObject() { return open(Json::object()); }
+  bool StartArray() { return open(Json::array()); }
+  bool EndObject(rapidjson::SizeType) { return close(); }
+  bool EndArray(rapidjson::SizeType) { return close(); }
+  bool Key(const char* text, rapidjson::SizeType length, bool) {
+    if (depth_left_out_ > 0) return true;
+    const std::string_view key(text, length);
+    if (open_.size() == 1) section_ = key;
+    next_left_out_ = (open_.size() == 1 && key == "provenance") ||
+                     (open_.size() == 2 && section_ == "reference" && key == "method");
+    if (next_left_out_) return true;
+    // A key given twice keeps its last value, as parse_json has it.
+    member_ = &(*open_.back())[std::string(key)];
+    return true;
+  }
+
+ private:
+  bool skipping() const { return depth_left_out_ > 0 || next_left_out_; }
+  void left_out() {
+    if (depth_left_out_ == 0) next_left_out_ = false;
+  }
+  Json* place(Json&& value) {
+    if (open_.empty()) {
+      root_ = std::move(value);
+      return &root_;
+    }
+    if (open_.back()->is_array()) {
+      open_.back()->push_back(std::move(value));
+      return &open_.back()->back();
+    }
+    *member_ = std::move(value);
+    return member_;
+  }
+  bool add(Json&& value) {
+    if (skipping())
+      left_out();
+    else
+      place(std::move(value));
+    return true;
+  }
+  bool open(Json&& empty) {
+    if (skipping())
+      ++depth_left_out_;
+    else
+      open_.push_back(place(std::move(empty)));
+    return true;
+  }
+  bool close() {
+    if (depth_left_out_ > 0) {
+      --depth_left_out_;
+      left_out();
+    } else {
+      open_.pop_back();
+    }
+    return true;
+  }
+
+  Json root_;
+  std::vector<Json*> open_;  // innermost last; a container does not move while one inside it is open
+  Json* member_ = nullptr;
+  std::string section_;
+  int depth_left_out_ = 0;
+  bool next_left_out_ = false;
+};
+
+// The record without what is not kept; its faults are named by the parser that all input goes through.
+Json read_line(std::string_view line, const std::string& place) {
+  constexpr unsigned flags = rapidjson::kParseFullPrecisionFlag | rapidjson::kParseValidateEncodingFlag |
+                             rapidjson::kParseIterativeFlag;
+  Builder builder;
+  rapidjson::Reader reader;
+  rapidjson::MemoryStream stream(line.data(), line.size());
+  if (line.find('\0') != std::string_view::npos || reader.Parse<flags>(stream, builder).IsError())
+    return parse_record(line, place);
+  Json record = builder.take();
+  require_record(record, place);
+  return record;
+}
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::error_code code;
+  if (!stream || std::filesystem::is_directory(file, code))
+    throw InputError(file.string(), "cannot be read; a file of records (JSON Lines) is expected here");
+  const std::uintmax_t size = std::filesystem::file_size(file, code);
+  std::string text;
+  // A pipe has no size: it is read in pieces.
+  const std::size_t piece = code || size == 0 ? std::size_t{1} << 20U : std::size_t(size) + 1;
+  while (stream) {
+    const std::size_t end = text.size();
+    text.resize(end + piece);
+    stream.read(text.data() + end, std::streamsize(piece));
+    text.resize(end + std::size_t(stream.gcount()));
+  }
+  return text;
+}
+
+std::vector<std::string_view> lines_of_file(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    lines.push_back(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return lines;
+}
+
+struct Part {
+  std::vector<Json> records;
+  std::vector<InputError> faults;
+  std::exception_ptr failure;  // of the machine
+};
+
+void read_part(const std::vector<std::string_view>& lines, std::size_t begin, std::size_t end,
+               const std::string& file, BadLines bad_lines, Part& part) {
+  part.records.reserve(end - begin);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (lines[i].empty()) continue;
+    try {
+      part.records.push_back(read_line(lines[i], fmt::format("{}:{}", file, i + 1)));
+    } catch (const InputError& error) {
+      part.faults.push_back(error);
+      if (bad_lines == BadLines::reject) return;
+    } catch (...) {
+      part.failure = std::current_exception();
+      return;
+    }
+  }
+}
+
+std::vector<Part> read_parts(const std::filesystem::path& file, BadLines bad_lines) {
+  const std::string text = content_of(file);
+  const std::vector<std::string_view> lines = lines_of_file(text);
+  constexpr std::size_t lines_worth_a_thread = 500;
+  const std::size_t most = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
+  std::vector<Part> parts(std::clamp<std::size_t>(lines.size() / lines_worth_a_thread, 1, most));
+  const auto start_of = [&](std::size_t part) { return lines.size() * part / parts.size(); };
+  const auto read = [&](std::size_t i) {
+    read_part(lines, start_of(i), start_of(i + 1), file.string(), bad_lines, parts[i]);
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 1; i < parts.size(); ++i) threads.emplace_back(read, i);
+    read(0);
+  }
+  return parts;
+}
+
+}  // namespace
+
+Json parse_record(std::string_view line, const std::string& place) {
+  Json record = parse_json(line, place);
+  require_record(record, place);
+  return record;
+}
+
+std::vector<Json> read_records(const std::vector<std::filesystem::path>& files, BadLines bad_lines) {
+  std::vector<Json> records;
+  std::unordered_map<std::string, std::size_t> place_of;
+  std::size_t faults = 0;
+  constexpr std::size_t named = 20;
+  for (const std::filesystem::path& file : files)
+    for (Part& part : read_parts(file, bad_lines)) {
+      if (part.failure) std::rethrow_exception(part.failure);
+      for (const InputError& fault : part.faults) {
+        if (bad_lines == BadLines::reject) throw InputError(fault);
+        if (faults++ < named) fmt::print(stderr, "{}\n", fault.what());
+      }
+      for (Json& record : part.records) {
+        const auto [place, fresh] =
+            place_of.try_emplace(record["key"].get_ref<const std::string&>(), records.size());
+        if (fresh)
+          records.push_back(std::move(record));
+        else
+          records[place->second] = std::move(record);
+      }
+    }
+  if (faults > named) fmt::print(stderr, "... and {} more\n", faults - named);
+  if (faults > 0)
+    fmt::print(stderr, "{} bad line{} skipped, {} records used\n", faults, faults == 1 ? "" : "s",
+               records.size());
+  return records;
+}
+
+std::vector<Json> read_records(const std::filesystem::path& file) {
+  return read_records(std::vector<std::filesystem::path>{file});
+}
+
+}  // namespace liebench

@@ -1,0 +1,93 @@
+#include "harness/record_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "harness/errors.h"
+#include "tests/harness/sample_records.h"
+
+namespace liebench {
+namespace {
+
+class RecordReader : public ::testing::Test {
+ protected:
+  void TearDown() override { std::filesystem::remove(file_); }
+  std::filesystem::path write(const std::string& text) const {
+    std::ofstream(file_, std::ios::binary) << text;
+    return file_;
+  }
+  std::filesystem::path file_ =
+      std::filesystem::temp_directory_path() /
+      (std::string("record_reader_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+Json good() {
+  return power_law_record({.step_size = 0.01}, 2);
+}
+
+Json keyed(int key) {
+  Json record = good();
+  record["key"] = std::to_string(key);
+  return record;
+}
+
+TEST_F(RecordReader, KeepsAllButProvenanceAndTheMethodOfTheReference) {
+  Json record = good();
+  record["text"] = "a \"quoted\" \u03bb";
+  record["nested"] = Json::parse(R"([[], {}, [1, -2, 1.5e-300, true, null], {"provenance": {"method": 1}}])");
+  const auto records = read_records(write(record.dump()));
+  record.erase("provenance");
+  record["reference"].erase("method");
+  ASSERT_EQ(records.size(), 1u);
+  EXPECT_EQ(records[0].dump(), record.dump());
+}
+
+TEST_F(RecordReader, ChecksAsJsonWhatItDoesNotKeep) {
+  std::string line = good().dump();
+  const std::size_t place = line.find("\"commit\"");
+  ASSERT_NE(place, std::string::npos);
+  line.insert(place, ",");
+  EXPECT_THROW(read_records(write(line)), InputError);
+}
+
+TEST_F(RecordReader, KeepsTheOrderOfManyLinesAndNamesTheFirstBadOne) {
+  std::string text;
+  for (int i = 0; i < 3000; ++i) text += keyed(i).dump() + "\n";
+  const auto records = read_records(write(text));
+  ASSERT_EQ(records.size(), 3000u);
+  for (int i = 0; i < 3000; ++i) ASSERT_EQ(records[std::size_t(i)]["key"], std::to_string(i));
+  text += "x\n" + keyed(1).dump() + "\ny\n";
+  try {
+    read_records(write(text));
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.place(), file_.string() + ":3001") << error.what();
+  }
+}
+
+TEST_F(RecordReader, SkipsBadLinesWhenAskedAndNamesThem) {
+  const auto file =
+      write(keyed(1).dump() + "\nforeign\n" + keyed(2).dump() + "\n" + keyed(3).dump().substr(0, 90));
+  ::testing::internal::CaptureStderr();
+  const auto records = read_records({file}, BadLines::skip);
+  const std::string messages = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(records.size(), 2u);
+  EXPECT_NE(messages.find(file.string() + ":2"), std::string::npos) << messages;
+  EXPECT_NE(messages.find(file.string() + ":4"), std::string::npos) << messages;
+  EXPECT_NE(messages.find("2 bad lines skipped, 2 records used"), std::string::npos) << messages;
+}
+
+TEST_F(RecordReader, OfRowsWithOneKeyTheLastCounts) {
+  Json timed = keyed(1);
+  timed["time"]["total_ns"] = 5.0;
+  const auto records =
+      read_records(write(keyed(1).dump() + "\n" + keyed(2).dump() + "\n" + timed.dump() + "\n"));
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_TRUE(records[0].contains("time"));
+  EXPECT_EQ(records[1]["key"], "2");
+}
+
+}  // namespace
+}  // namespace liebench
