@@ -27,59 +27,83 @@ struct CurveLook {
 };
 
 // A colour for what methods are apart from k, in the order in which they come; dashes when all colours are taken. A mark
-// for each k.
+// for each k. Where panels tell formulations and forms apart, colours need not.
 class Looks {
  public:
+  explicit Looks(bool panels) : panels_(panels) {}
   CurveLook operator()(const Curve& curve) {
     const int group = int(groups_.try_emplace(group_of(curve), groups_.size()).first->second);
     const Json& options = curve.identity.at("options");
     const int k = options.contains("k") ? options.at("k").get<int>() : 0;
     return {group % style_count, group / style_count % 2 == 1, k % style_count};
   }
-  static std::string group_of(const Curve& curve) {
+
+ private:
+  std::string group_of(const Curve& curve) const {
     Json identity = curve.identity;
     identity["options"].erase("k");
-    for (const char* key : {"form", "modified_start"}) identity["options"].erase(key);
-    for (const char* key : {"formulation", "parameters"}) identity.erase(key);
+    if (panels_) {
+      for (const char* key : {"form", "modified_start"}) identity["options"].erase(key);
+      identity.erase("formulation");
+    }
     return identity.dump();
   }
 
- private:
+  bool panels_;
   std::map<std::string, std::size_t> groups_;
 };
 
-std::string form_of_record(const Json& record) {
-  return record.at("options").value("form", "");
-}
-
 std::string panel_name(const Json& record) {
-  const std::string form = form_of_record(record);
+  const std::string form = record.at("options").value("form", "");
   const std::string formulation = record.at("formulation").get<std::string>();
   return form.empty() ? formulation : fmt::format("{}, {}", formulation, form);
 }
 
-// The names of methods where they tell the curves apart, else the labels.
+// "bliedf2nd, correction = true": what a colour stands for.
+std::string group_label(const Curve& curve) {
+  std::string text = curve.identity.at("integrator").get<std::string>();
+  for (const auto& option : curve.identity.at("options").items())
+    if (option.key() != "k")
+      text +=
+          fmt::format(", {} = {}", option.key(),
+                      option.value().is_string() ? option.value().get<std::string>() : option.value().dump());
+  return text;
+}
+
+// The names of methods where they tell the curves apart, else the labels; of very many, what their colours stand for.
 std::vector<std::string> labels_of(const std::vector<Curve>& list) {
   std::vector<std::string> names, labels;
   for (const Curve& curve : list) {
-    names.push_back(method_name(curve.identity));
+    names.push_back(list.size() > most_named_curves ? group_label(curve) : method_name(curve.identity));
     labels.push_back(curve.label);
   }
-  return std::set<std::string>(names.begin(), names.end()).size() == names.size() ? names : labels;
+  const bool distinct = std::set<std::string>(names.begin(), names.end()).size() == names.size();
+  return distinct || list.size() > most_named_curves ? names : labels;
 }
 
+Series series_of(const std::string& label, const CurveLook& look, std::size_t curves) {
+  return {.label = plain_text(label),
+          .style = look.style,
+          .secondary = look.secondary,
+          .mark = curves > most_named_curves ? look.style : look.mark};
+}
+
+using Rows = std::vector<const Json*>;
+
 // The records in panels, in the order of their first record.
-std::vector<std::pair<std::string, std::vector<Json>>> split(const std::vector<Json>& records, bool panels) {
-  std::vector<std::pair<std::string, std::vector<Json>>> parts;
+std::vector<std::pair<std::string, Rows>> split(const std::vector<Json>& records, bool panels) {
+  std::vector<std::pair<std::string, Rows>> parts;
   std::map<std::string, std::size_t> places;
+  Rows all;
   for (const Json& record : records) {
-    const std::string name = panels ? panel_name(record) : "";
-    const auto [place, fresh] = places.try_emplace(name, parts.size());
-    if (fresh) parts.push_back({name, {}});
-    parts[place->second].second.push_back(record);
+    all.push_back(&record);
+    if (!panels) continue;
+    const auto [place, fresh] = places.try_emplace(panel_name(record), parts.size());
+    if (fresh) parts.push_back({place->first, {}});
+    parts[place->second].second.push_back(&record);
   }
   if (parts.size() > 1 && parts.size() <= most_panels) return parts;
-  return {{"", records}};
+  return {{"", std::move(all)}};
 }
 
 // Columns and rows of so many panels.
@@ -133,11 +157,13 @@ std::optional<double> value_of(const Json& record, const Abscissa& x) {
 }
 
 const Abscissa& dearest_abscissa(const std::vector<Json>& records) {
+  Rows asked;
+  for (const Json& record : records)
+    if (record.at("outcome") == "ok" && record.at("precision") == "double") asked.push_back(&record);
   for (const char* name : {"time", "flops"}) {
     const Abscissa& x = abscissa(name);
-    if (std::all_of(records.begin(), records.end(), [&](const Json& record) {
-          return record.at("outcome") != "ok" || value_of(record, x).has_value();
-        }))
+    if (!asked.empty() && std::all_of(asked.begin(), asked.end(),
+                                      [&](const Json* record) { return value_of(*record, x).has_value(); }))
       return x;
   }
   return abscissa("residuals");
@@ -156,43 +182,45 @@ std::string failures_text(const std::vector<Json>& records) {
 RecordFigure error_figure(const std::vector<Json>& records, const Abscissa& x, const Quantity& quantity,
                           bool panels) {
   RecordFigure result;
-  Looks looks;
-  for (const auto& [title, rows] : split(records, panels)) {
+  const auto parts = split(records, panels);
+  Looks looks(parts.size() > 1);
+  for (const auto& [title, rows] : parts) {
+    // A failed run has no error: whether it has one of lambda, those that ended well say.
+    if (std::none_of(rows.begin(), rows.end(),
+                     [&](const Json* record) { return error_of(*record, quantity).has_value(); }))
+      continue;
     Panel panel{.title = plain_text(title),
                 .x_label = std::string(x.label),
                 .y_label = plain_text(describe(quantity))};
-    const std::vector<Curve> list = curves(rows);
+    const std::vector<Curve> list = curves_of(rows);
     const std::vector<std::string> labels = labels_of(list);
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const CurveLook look = looks(list[i]);
-      Series series{.label = plain_text(list.size() > most_named_curves
-                                            ? list[i].identity.at("integrator").get<std::string>()
-                                            : labels[i]),
-                    .style = look.style,
-                    .secondary = look.secondary,
-                    .mark = list.size() > most_named_curves ? look.style : look.mark};
-      std::vector<const Json*> without_place;
+      Series series = series_of(labels[i], looks(list[i]), list.size());
+      std::size_t without_place = 0;
+      bool ended_well = false, has_error = false;
       for (const Json* record : list[i].records) {
         const std::optional<double> value = value_of(*record, x);
         if (record->at("outcome") != "ok") {
           if (value)
             series.failures.push_back({*value, 0.0});
           else
-            without_place.push_back(record);
-        } else if (const auto error = error_of(*record, quantity)) {
-          if (value)
-            series.points.push_back({*value, *error});
-          else
-            ++result.left_out;
+            ++without_place;
+          continue;
         }
-      }
-      const double edge = series.points.empty() ? 0.0 : series.points.front().x;
-      for (std::size_t j = 0; j < without_place.size(); ++j) {
-        if (edge > 0.0)
-          series.failures.push_back({edge, 0.0});
+        ended_well = true;
+        const auto error = error_of(*record, quantity);
+        if (!error) continue;
+        has_error = true;
+        if (value)
+          series.points.push_back({*value, *error});
         else
           ++result.left_out;
       }
+      if (ended_well && !has_error) continue;
+      if (series.points.empty())
+        result.left_out += without_place;
+      else
+        series.failures.insert(series.failures.end(), without_place, {series.points.front().x, 0.0});
       if (!series.points.empty() || !series.failures.empty()) panel.series.push_back(std::move(series));
     }
     if (!panel.series.empty()) result.figure.panels.push_back(std::move(panel));
@@ -214,29 +242,26 @@ RecordFigure drift_figure(const std::vector<Json>& records) {
   const std::vector<Curve> list = curves(records);
   const std::vector<std::string> labels = labels_of(list);
   for (const auto& [key, label] : invariants) {
-    Looks looks;
+    Looks looks(false);
     Panel panel{.x_label = std::string(x.label), .y_label = label};
     bool applies = false;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const CurveLook look = looks(list[i]);
-      Series series{.label = plain_text(list.size() > most_named_curves
-                                            ? list[i].identity.at("integrator").get<std::string>()
-                                            : labels[i]),
-                    .style = look.style,
-                    .secondary = look.secondary,
-                    .mark = list.size() > most_named_curves ? look.style : look.mark};
+      Series series = series_of(labels[i], looks(list[i]), list.size());
+      bool ended_well = false;
       for (const Json* record : list[i].records) {
         const double h = record->at("step_size").get<double>();
         if (record->at("outcome") != "ok") {
           series.failures.push_back({h, 0.0});
           continue;
         }
+        ended_well = true;
         const auto drift = record->find("drift");
         if (drift == record->end() || !drift->contains(key)) continue;
         series.points.push_back({h, drift->at(key).get<double>()});
         applies = true;
       }
-      if (!series.points.empty() || !series.failures.empty()) panel.series.push_back(std::move(series));
+      if (series.points.empty() && (ended_well || series.failures.empty())) continue;
+      panel.series.push_back(std::move(series));
     }
     if (applies) result.figure.panels.push_back(std::move(panel));
   }

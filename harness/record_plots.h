@@ -30,7 +30,7 @@ const Abscissa& abscissa(const std::string& name);
 // The value of a record; empty where it has none. A positive one: axes are logarithmic.
 std::optional<double> value_of(const Json& record, const Abscissa& x);
 
-// The first of time, flops and residuals that every record which ended well has.
+// The first of time, flops and residuals that every run in double which ended well has; residuals where there is none.
 const Abscissa& dearest_abscissa(const std::vector<Json>& records);
 
 struct RecordFigure {

@@ -1,13 +1,16 @@
 #include "harness/record_reader.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <rapidjson/memorystream.h>
 #include <rapidjson/reader.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <thread>
 #include <unordered_map>
@@ -15,6 +18,7 @@
 
 #include "harness/errors.h"
 #include "harness/record.h"
+#include "harness/record_file.h"
 
 namespace liebench {
 
@@ -49,9 +53,10 @@ void require_record(const Json& record, const std::string& place) {
   }
 }
 
-// Events of rapidjson's parser into a record without `provenance` and `reference.method`.
+// Events of rapidjson's parser into a record without what is not kept.
 class Builder {
  public:
+  explicit Builder(DriftOfRuns drift) : drift_(drift) {}
   Json take() { return std::move(root_); }
 
   bool Null() { return add(Json(nullptr)); }
@@ -67,15 +72,26 @@ class Builder {
     left_out();
     return true;
   }
-  bool StartObject() { return open(Json::object()); }
-  bool StartArray() { return open(Json::array()); }
+  bool StartObject() {
+    open(Json::object());
+    // Of the usual size at once: a container that grows moves what it holds.
+    if (!skipping())
+      open_.back()->get_ref<Json::object_t&>().reserve(open_.size() == 1 ? 20 : section_ == "cost" ? 13 : 4);
+    return true;
+  }
+  bool StartArray() {
+    open(Json::array());
+    if (!skipping()) open_.back()->get_ref<Json::array_t&>().reserve(3);
+    return true;
+  }
   bool EndObject(rapidjson::SizeType) { return close(); }
   bool EndArray(rapidjson::SizeType) { return close(); }
   bool Key(const char* text, rapidjson::SizeType length, bool) {
     if (depth_left_out_ > 0) return true;
     const std::string_view key(text, length);
     if (open_.size() == 1) section_ = key;
-    next_left_out_ = (open_.size() == 1 && key == "provenance") ||
+    next_left_out_ = (open_.size() == 1 && (key == "provenance" || key == "requested_step_size" ||
+                                            (key == "drift" && drift_ == DriftOfRuns::leave_out))) ||
                      (open_.size() == 2 && section_ == "reference" && key == "method");
     if (next_left_out_) return true;
     // A key given twice keeps its last value, as parse_json has it.
@@ -124,6 +140,7 @@ class Builder {
     return true;
   }
 
+  DriftOfRuns drift_;
   Json root_;
   std::vector<Json*> open_;  // innermost last; a container does not move while one inside it is open
   Json* member_ = nullptr;
@@ -133,10 +150,10 @@ class Builder {
 };
 
 // The record without what is not kept; its faults are named by the parser that all input goes through.
-Json read_line(std::string_view line, const std::string& place) {
+Json read_line(std::string_view line, const std::string& place, DriftOfRuns drift) {
   constexpr unsigned flags = rapidjson::kParseFullPrecisionFlag | rapidjson::kParseValidateEncodingFlag |
                              rapidjson::kParseIterativeFlag;
-  Builder builder;
+  Builder builder(drift);
   rapidjson::Reader reader;
   rapidjson::MemoryStream stream(line.data(), line.size());
   if (line.find('\0') != std::string_view::npos || reader.Parse<flags>(stream, builder).IsError())
@@ -146,22 +163,41 @@ Json read_line(std::string_view line, const std::string& place) {
   return record;
 }
 
-std::string content_of(const std::filesystem::path& file) {
+// A file in memory without a copy of it; what is no file (a pipe) is read.
+class Content {
+ public:
+  explicit Content(const std::filesystem::path& file);
+  ~Content() {
+    if (mapped_ != MAP_FAILED) ::munmap(mapped_, size_);
+  }
+  Content(const Content&) = delete;
+  Content& operator=(const Content&) = delete;
+
+  std::string_view text() const {
+    return mapped_ != MAP_FAILED ? std::string_view(static_cast<const char*>(mapped_), size_) : text_;
+  }
+
+ private:
+  void* mapped_ = MAP_FAILED;
+  std::size_t size_ = 0;
+  std::string text_;
+};
+
+Content::Content(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::error_code code;
   if (!stream || std::filesystem::is_directory(file, code))
     throw InputError(file.string(), "cannot be read; a file of records (JSON Lines) is expected here");
   const std::uintmax_t size = std::filesystem::file_size(file, code);
-  std::string text;
-  // A pipe has no size: it is read in pieces.
-  const std::size_t piece = code || size == 0 ? std::size_t{1} << 20U : std::size_t(size) + 1;
-  while (stream) {
-    const std::size_t end = text.size();
-    text.resize(end + piece);
-    stream.read(text.data() + end, std::streamsize(piece));
-    text.resize(end + std::size_t(stream.gcount()));
+  if (!code && size > 0) {
+    const FileDescriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+    if (descriptor.value() >= 0)
+      mapped_ =
+          ::mmap(nullptr, std::size_t(size), PROT_READ, MAP_PRIVATE | MAP_POPULATE, descriptor.value(), 0);
+    size_ = std::size_t(size);
+    if (mapped_ != MAP_FAILED) return;
   }
-  return text;
+  text_.assign(std::istreambuf_iterator<char>(stream), {});
 }
 
 std::vector<std::string_view> lines_of_file(std::string_view text) {
@@ -181,12 +217,12 @@ struct Part {
 };
 
 void read_part(const std::vector<std::string_view>& lines, std::size_t begin, std::size_t end,
-               const std::string& file, BadLines bad_lines, Part& part) {
+               const std::string& file, BadLines bad_lines, DriftOfRuns drift, Part& part) {
   part.records.reserve(end - begin);
   for (std::size_t i = begin; i < end; ++i) {
     if (lines[i].empty()) continue;
     try {
-      part.records.push_back(read_line(lines[i], fmt::format("{}:{}", file, i + 1)));
+      part.records.push_back(read_line(lines[i], fmt::format("{}:{}", file, i + 1), drift));
     } catch (const InputError& error) {
       part.faults.push_back(error);
       if (bad_lines == BadLines::reject) return;
@@ -197,15 +233,15 @@ void read_part(const std::vector<std::string_view>& lines, std::size_t begin, st
   }
 }
 
-std::vector<Part> read_parts(const std::filesystem::path& file, BadLines bad_lines) {
-  const std::string text = content_of(file);
-  const std::vector<std::string_view> lines = lines_of_file(text);
+std::vector<Part> read_parts(const std::filesystem::path& file, BadLines bad_lines, DriftOfRuns drift) {
+  const Content content(file);
+  const std::vector<std::string_view> lines = lines_of_file(content.text());
   constexpr std::size_t lines_worth_a_thread = 500;
   const std::size_t most = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
   std::vector<Part> parts(std::clamp<std::size_t>(lines.size() / lines_worth_a_thread, 1, most));
   const auto start_of = [&](std::size_t part) { return lines.size() * part / parts.size(); };
   const auto read = [&](std::size_t i) {
-    read_part(lines, start_of(i), start_of(i + 1), file.string(), bad_lines, parts[i]);
+    read_part(lines, start_of(i), start_of(i + 1), file.string(), bad_lines, drift, parts[i]);
   };
   {
     std::vector<std::jthread> threads;
@@ -223,13 +259,14 @@ Json parse_record(std::string_view line, const std::string& place) {
   return record;
 }
 
-std::vector<Json> read_records(const std::vector<std::filesystem::path>& files, BadLines bad_lines) {
+std::vector<Json> read_records(const std::vector<std::filesystem::path>& files, BadLines bad_lines,
+                               DriftOfRuns drift) {
   std::vector<Json> records;
   std::unordered_map<std::string, std::size_t> place_of;
   std::size_t faults = 0;
   constexpr std::size_t named = 20;
   for (const std::filesystem::path& file : files)
-    for (Part& part : read_parts(file, bad_lines)) {
+    for (Part& part : read_parts(file, bad_lines, drift)) {
       if (part.failure) std::rethrow_exception(part.failure);
       for (const InputError& fault : part.faults) {
         if (bad_lines == BadLines::reject) throw InputError(fault);

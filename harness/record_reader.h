@@ -20,12 +20,15 @@ enum class BadLines {
 };
 
 // The records of JSON Lines files in the order of their lines, as tables, plots and comparisons need them:
-// every line is checked as JSON and as a record, but `provenance` and `reference.method` are not kept.
+// every line is checked as JSON and as a record, but `provenance`, `reference.method`, `requested_step_size` and, unless asked
+// for, `drift` are not kept: they are half of a file.
 // Of rows with the same key the last one counts, in the place of the first: a timed row replaces the untimed
 // one. Throws InputError that names file and line where one is not a record of this schema, and where a file
 // cannot be read.
+enum class DriftOfRuns { leave_out, keep };
 std::vector<Json> read_records(const std::vector<std::filesystem::path>& files,
-                               BadLines bad_lines = BadLines::reject);
+                               BadLines bad_lines = BadLines::reject,
+                               DriftOfRuns drift = DriftOfRuns::leave_out);
 std::vector<Json> read_records(const std::filesystem::path& file);
 
 }  // namespace liebench

@@ -148,9 +148,16 @@ std::optional<double> error_of(const Json& record, const Quantity& quantity) {
 }
 
 std::vector<Curve> curves(const std::vector<Json>& records) {
+  std::vector<const Json*> pointers;
+  for (const Json& record : records) pointers.push_back(&record);
+  return curves_of(pointers);
+}
+
+std::vector<Curve> curves_of(const std::vector<const Json*>& records) {
   std::vector<Curve> list;
   std::unordered_map<std::size_t, std::vector<std::size_t>> index;  // more than one where hashes collide
-  for (const Json& record : records) {
+  for (const Json* each : records) {
+    const Json& record = *each;
     std::vector<std::size_t>& places = index[identity_hash(record)];
     auto place = std::find_if(places.begin(), places.end(),
                               [&](std::size_t i) { return has_identity(record, list[i].identity); });

@@ -38,6 +38,7 @@ struct Curve {
 
 // All curves of the records, in the order of their first record. Labels name what differs among them.
 std::vector<Curve> curves(const std::vector<Json>& records);
+std::vector<Curve> curves_of(const std::vector<const Json*>& records);
 
 // The observed order of a curve: fit_order on its records with the reference's error estimate.
 OrderFit fit_curve(const Curve& curve, const Quantity& quantity);

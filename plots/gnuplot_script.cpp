@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -18,8 +19,14 @@ namespace liebench {
 namespace {
 
 constexpr std::size_t marks_per_line = 24;
+// A panel with more points than this is drawn in lines alone: marks would cover each other, and the file would be large.
+constexpr std::size_t most_marks = 2000;
+// Points of a curve that lie closer than this (1/72 inch) are one.
+constexpr double least_distance = 0.3;
 
-std::string plot_style(const Look& look, std::size_t point_count) {
+std::string plot_style(const Look& look, std::size_t point_count, bool marked) {
+  if (!marked && !look.dashes.empty())
+    return fmt::format("with lines lc rgb '{}' lw {} dt {}", look.colour, look.line_width, look.dashes);
   const std::string mark =
       fmt::format("lc rgb '{}' lw {} pt {} ps {}", look.colour, look.line_width, look.mark, look.mark_size);
   if (look.dashes.empty()) return "with points " + mark;
@@ -45,6 +52,7 @@ std::vector<std::string> curve_lines(const Series& series, const Axes& axes) {
   std::vector<std::string> lines;
   const std::vector<double> failures = failures_of(series);
   std::optional<double> previous;
+  Point drawn;  // the last one, on the page
   for (const Point& point : series.points) {
     const Place place = place_of(point, axes);
     if (place == Place::nowhere || !on_axis(point.y, axes.y.logarithmic)) continue;
@@ -52,6 +60,11 @@ std::vector<std::string> curve_lines(const Series& series, const Axes& axes) {
                        return x > std::min(*previous, point.x) && x < std::max(*previous, point.x);
                      });
     if (gap) lines.emplace_back();
+    const double x = axes.x.position(point.x), y = axes.y.position(point.y);
+    if (!gap && previous && &point != &series.points.back() &&
+        std::hypot(x - drawn.x, y - drawn.y) < least_distance)
+      continue;
+    drawn = {x, y};
     lines.push_back(data_line(point.x, point.y));
     previous = point.x;
   }
@@ -69,6 +82,8 @@ std::vector<Curve> write_panel_data(std::string& script, const Panel& panel, con
   std::vector<Curve> beneath;
   std::vector<Curve> above;
   const std::vector<FailureMark> marks = failure_marks(panel, axes.x);
+  std::size_t points = 0;
+  for (const Series& series : panel.series) points += series.points.size();
   for (std::size_t index = 0; index < panel.series.size(); ++index) {
     const Series& series = panel.series[index];
     const std::string_view colour = colour_of(series);
@@ -77,7 +92,7 @@ std::vector<Curve> write_panel_data(std::string& script, const Panel& panel, con
       if (lines.empty()) return;
       const std::string name = fmt::format("panel{}_{}{}", number, kind, index + 1);
       write_data(script, name, lines);
-      (low ? beneath : above).push_back({name, plot_style(look, lines.size())});
+      (low ? beneath : above).push_back({name, plot_style(look, lines.size(), points <= most_marks)});
     };
     add("curve", curve_lines(series, axes), look_of(series), series.secondary || series.broad);
 

@@ -48,9 +48,11 @@ RecordFigure make_figure(const PlotOptions& options, const std::vector<Json>& re
 
 void plot(const PlotOptions& options) {
   require_gnuplot();
-  const std::vector<Json> records =
+  // Never freed: the program ends with its answer, and freeing many records takes as long as reading them.
+  static const std::vector<Json>& records = *new std::vector<Json>(
       read_records(std::vector<std::filesystem::path>(options.files.begin(), options.files.end()),
-                   options.skip_bad_lines ? BadLines::skip : BadLines::reject);
+                   options.skip_bad_lines ? BadLines::skip : BadLines::reject,
+                   options.kind == "drift" ? DriftOfRuns::keep : DriftOfRuns::leave_out));
   if (records.empty()) throw InputError(options.files.front(), "holds no records");
   const RecordFigure result = make_figure(options, records);
   if (result.left_out > 0)
@@ -78,7 +80,7 @@ void add_plot(CLI::App& app, int&) {
       ->add_option(
           "--x", options->x,
           fmt::format("abscissa: {}; by default step_size, with work-precision the first of time, flops and "
-                      "residuals that all records have",
+                      "residuals that all runs in double have",
                       fmt::join(names, ", ")))
       ->type_name("NAME");
   command->add_option("--y", options->y, "the error of which component")

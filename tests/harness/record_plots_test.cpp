@@ -4,6 +4,7 @@
 
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "harness/errors.h"
@@ -51,6 +52,9 @@ TEST(Abscissa, TheDearestThatAllHaveIsTaken) {
   records = study();
   records.push_back(sample_record({.precision = "double", .step_size = 0.1}, sample_failure()));
   EXPECT_EQ(dearest_abscissa(records).name, "time");
+  // Nor has a run in extended precision.
+  records.push_back(power_law_record({.precision = "extended", .step_size = 0.05}, 2));
+  EXPECT_EQ(dearest_abscissa(records).name, "time");
 }
 
 TEST(ErrorFigure, HasAPanelForEachFormulationAndTheCostsOfTheRecords) {
@@ -87,10 +91,25 @@ TEST(ErrorFigure, AFailedRunIsNeverDropped) {
   ASSERT_EQ(series.failures.size(), 1u);
   EXPECT_EQ(series.failures[0].x, series.points[0].x);
   EXPECT_NE(by_time.figure.failures.find("1 newton"), std::string::npos) << by_time.figure.failures;
-  // Nothing but failures, and no place for them: counted.
-  const RecordFigure none = error_figure({failed}, abscissa("time"), {}, true);
-  EXPECT_TRUE(none.figure.panels.empty());
-  EXPECT_EQ(none.left_out, 1u);
+}
+
+TEST(ErrorFigure, AFailedRunHasNoPlaceWhereTheQuantityDoesNotExist) {
+  std::vector<Json> records = study();
+  Json failed = sample_record({.formulation = "SO3", .k = 2, .precision = "double", .step_size = 0.1},
+                              sample_failure());
+  records.push_back(failed);
+  const RecordFigure lambda = error_figure(records, abscissa("step_size"), {"lambda", "end_relative"}, true);
+  ASSERT_EQ(lambda.figure.panels.size(), 1u);
+  EXPECT_EQ(lambda.figure.panels[0].title, "R3xSO3, index3");
+  EXPECT_TRUE(error_figure({failed}, abscissa("step_size"), {}, true).figure.panels.empty());
+}
+
+TEST(ErrorFigure, CurvesThatShareAPanelLookDifferent) {
+  std::vector<Json> records = study();
+  const auto series = error_figure(records, abscissa("step_size"), {}, false).figure.panels.at(0).series;
+  std::set<std::tuple<int, bool, int>> looks;
+  for (const Series& each : series) looks.emplace(each.style, each.secondary, each.mark);
+  EXPECT_EQ(looks.size(), series.size());
 }
 
 TEST(ErrorFigure, RecordsWithoutTheCostAreCounted) {
