@@ -192,7 +192,11 @@ std::optional<OrderEstimate> fit(LogPoints points, const Window& window) {
     weighted_squares += residual * residual / (1 + scaled * scaled);
   }
   const auto freedom = static_cast<double>(window.on_law.size() - 2);
-  const double student = boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.6827 / 2);
+  // In double, not by way of long double, which valgrind does not have.
+  namespace policies = boost::math::policies;
+  using StudentsT =
+      boost::math::students_t_distribution<double, policies::policy<policies::promote_double<false>>>;
+  const double student = boost::math::quantile(StudentsT(freedom), 0.5 + 0.6827 / 2);
 
   const auto slopes = secants(window.on_law);
   const bool monotone = std::ranges::is_sorted(slopes) || std::ranges::is_sorted(slopes, std::greater{});
