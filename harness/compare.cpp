@@ -9,6 +9,7 @@
 
 #include "harness/rank_test.h"
 #include "harness/select.h"
+#include "harness/timing.h"
 
 namespace liebench {
 
@@ -112,11 +113,6 @@ std::vector<double> samples(const Json& record) {
   for (const Json& value : record.at(pointer))
     if (value.is_number()) list.push_back(value.get<double>());
   return list;
-}
-
-double median(std::vector<double> list) {
-  std::sort(list.begin(), list.end());
-  return (list[(list.size() - 1) / 2] + list[list.size() / 2]) / 2;
 }
 
 void compare_times(const Json& before, const Json& after, const std::string& name,

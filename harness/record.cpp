@@ -67,21 +67,19 @@ Json cost_to_json(const RunCost& c) {
 }
 
 Json time_to_json(const RunTimes& times) {
-  std::vector<double> sorted = times.per_step;
-  std::sort(sorted.begin(), sorted.end());
-  const std::size_t half = sorted.size() / 2;
-  const double median = sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
+  const double middle = median(times.per_step);
+  const auto [least, most] = std::minmax_element(times.per_step.begin(), times.per_step.end());
   // Nobody can use more digits of a time.
   const auto tenths = [](double ns) { return std::round(ns * 10.0) / 10.0; };
   Json j;
   Json& per_step = j["ns_per_step"];
-  per_step["median"] = tenths(median);
-  per_step["min"] = tenths(sorted.front());
-  per_step["max"] = tenths(sorted.back());
-  per_step["repetitions"] = sorted.size();
+  per_step["median"] = tenths(middle);
+  per_step["min"] = tenths(*least);
+  per_step["max"] = tenths(*most);
+  per_step["repetitions"] = times.per_step.size();
   for (const double ns : times.per_step) per_step["samples"].push_back(tenths(ns));
   j["start_ns"] = std::round(times.start);
-  j["total_ns"] = std::round(times.start + median * double(times.steps));
+  j["total_ns"] = std::round(times.start + middle * double(times.steps));
   j["spread"] = std::round(spread_of(times.per_step) * 1e4) / 1e4;
   if (!times.steady) j["unsteady"] = true;
   return j;
@@ -134,7 +132,6 @@ Json make_record(const RunSpec& run, const RunResult& result, const PreparedProb
   }
   if (result.drift) j["drift"] = drift(*result.drift);
   j["cost"] = cost_to_json(result.cost);
-  if (result.times) j["time"] = time_to_json(*result.times);
   j["provenance"] = provenance;
   return j;
 }

@@ -12,8 +12,8 @@ inline constexpr int record_schema = 1;
 Json make_record(const RunSpec& run, const RunResult& result, const PreparedProblem& problem,
                  const Json& provenance);
 
-// The record with the times of its run. Where it was made by another build or on another machine than the times, its
-// provenance becomes theirs: errors and counts are the same for all of them.
+// The record with the times of its run, and with the provenance of these: errors and counts are the same for every build of
+// one numerical version, which is part of the key.
 Json with_time(Json record, const RunTimes& times);
 
 }  // namespace liebench

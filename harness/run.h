@@ -83,7 +83,6 @@ struct RunResult {
   std::optional<Drift> drift;
   RunCost cost;
   std::vector<double> end_state;  // q, v, lambda where the run ended, rounded to double
-  std::optional<RunTimes> times;
 };
 
 // A run in double made ready to be timed: no counter, no comparison with the reference. Each call does all of its part.

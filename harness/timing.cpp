@@ -68,12 +68,6 @@ void initialize(const TimingRules& rules) {
   benchmark::Initialize(&count, arguments.data());
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 struct TimedCase {
   std::size_t index;
   std::unique_ptr<TimedRun> run;
@@ -113,6 +107,12 @@ void time_round(std::vector<TimedCase>& cases, const TimingRules& rules) {
 
 }  // namespace
 
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
 double spread_of(const std::vector<double>& repetitions) {
   if (repetitions.size() < 2) return 0.0;
   std::vector<double> sorted = repetitions;
@@ -133,7 +133,7 @@ bool is_timed(const RunSpec& run) {
 void time_runs(const std::vector<RunSpec>& runs, const TimingRules& rules, const ReferenceCache& cache,
                Progress& progress, const std::function<void(std::size_t, const RunTimes&)>& take) {
   const PreparedProblems problems(runs, cache, progress);
-  // By problem and step size, in the order of their first run.
+  // By formulation and step size, in the order of their first run.
   std::vector<std::vector<std::size_t>> groups;
   std::map<std::string, std::size_t> places;
   for (std::size_t i = 0; i < runs.size(); ++i) {

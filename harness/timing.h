@@ -22,11 +22,13 @@ struct TimingRules {
 // Whether a run can be timed: in double.
 bool is_timed(const RunSpec& run);
 
-// Times `runs`, which ended well, by Google Benchmark: one after the other on one processor, those of one problem and step
+// Times `runs`, which ended well, by Google Benchmark: one after the other on one processor, those of one formulation and step
 // size in one group whose repetitions are in random order, so that a disturbance of the machine meets all methods alike.
 // CPU time of the thread. Hands each result to `take(index, times)`, group by group.
 void time_runs(const std::vector<RunSpec>& runs, const TimingRules& rules, const ReferenceCache& cache,
                Progress& progress, const std::function<void(std::size_t, const RunTimes&)>& take);
+
+double median(std::vector<double> values);
 
 // The interquartile range of the repetitions over their median.
 double spread_of(const std::vector<double>& repetitions);

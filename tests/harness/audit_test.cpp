@@ -118,12 +118,22 @@ TEST_F(AuditTest, TheStartIsPartOfTheCost) {
   }
 }
 
+// The explicit correction of k = 6 is unstable at this step size where a constraint fixes the increments.
 TEST_F(AuditTest, AFailedRunHasItsCountsUpToTheFailure) {
-  for (const Json& record : run(R"([{"name": "bliedf2nd", "k": 2}])",
-                                R"("step_sizes": [0.05], "t_end": 0.5, "start": "reference")")) {
-    EXPECT_NE(record.at("outcome"), "ok");
-    EXPECT_TRUE(record.at("cost").contains("exp"));
+  int failed = 0;
+  for (const Json& record : run(R"([{"name": "bliedf2nd", "k": 6, "form": "index3"}])",
+                                R"("step_sizes": [2e-3], "t_end": 2.0, "start": "reference")")) {
+    if (record.at("outcome") == "ok") continue;
+    ++failed;
+    const auto step = record.at("failure").at("step").get<std::uint64_t>();
+    ASSERT_GT(step, 6u);
+    EXPECT_LT(step, record.at("steps").get<std::uint64_t>());
+    // Each step that was taken or tried takes an iteration at least, and each has its correction: four commutators.
+    EXPECT_GE(count(record, "newton_iterations"), step - 5);
+    EXPECT_EQ(count(record, "commutators"), 4 * (step - 5));
+    EXPECT_GT(count(record, "flops"), 0u);
   }
+  EXPECT_GT(failed, 0);
 }
 
 }  // namespace
