@@ -15,7 +15,7 @@ using R3xSO3System = HeavyTopR3xSO3<double>;
 template <int k, class S>
 void step(benchmark::State& state) {
   const double h = std::pow(10.0, -double(state.range(0)));
-  measure(state, started(BLieDF2nd::Stepper<S>(S{HeavyTopParameters{}}, BLieDF2nd::Options{.k = k}), h));
+  measure(state, *started<S>(BLieDF2nd::Options{.k = k}, h));
 }
 
 void step_sizes(benchmark::internal::Benchmark* b) {
@@ -32,8 +32,7 @@ BENCHMARK(step<4, R3xSO3System>)->Apply(step_sizes)->Name("bliedf2nd/R3xSO3/k=4"
 template <class Top, Form form = Form::index3>
 void pair(const std::string& name) {
   using System = typename Top::System;
-  add_pair<floors::BLieDF2nd<Top>, BLieDF2nd::Stepper<System, form, NoAudit>,
-           BLieDF2nd::Stepper<System, form, KernelAudit>>(name, BLieDF2nd::Options{.k = 3, .form = form});
+  add_pair<floors::BLieDF2nd<Top>, System>(name, BLieDF2nd::Options{.k = 3, .form = form});
 }
 
 }  // namespace

@@ -11,12 +11,9 @@ void pairs(const std::string& name) {
   using System = typename Top::System;
   using Variant = FaltinsenBdf::Variant;
   using Floor = floors::FaltinsenVariant;
-  add_pair<floors::FaltinsenBdf<Top, Floor::exact>,
-           FaltinsenBdf::Stepper<System, Variant::exact, form, NoAudit>,
-           FaltinsenBdf::Stepper<System, Variant::exact, form, KernelAudit>>(
+  add_pair<floors::FaltinsenBdf<Top, Floor::exact>, System>(
       name + "/k=3/exact", FaltinsenBdf::Options{.k = 3, .variant = Variant::exact, .form = form});
-  add_pair<floors::FaltinsenBdf<Top, Floor::bch>, FaltinsenBdf::Stepper<System, Variant::bch, form, NoAudit>,
-           FaltinsenBdf::Stepper<System, Variant::bch, form, KernelAudit>>(
+  add_pair<floors::FaltinsenBdf<Top, Floor::bch>, System>(
       name + "/k=3/bch", FaltinsenBdf::Options{.k = 3, .variant = Variant::bch, .form = form});
 }
 

@@ -9,9 +9,8 @@ namespace {
 template <class Top, Form form = Form::index3>
 void pair(const std::string& name) {
   using System = typename Top::System;
-  add_pair<floors::GeneralizedAlpha<Top>, GeneralizedAlpha::Stepper<System, form, NoAudit>,
-           GeneralizedAlpha::Stepper<System, form, KernelAudit>>(
-      name, GeneralizedAlpha::Options{.rho_inf = 0.9, .form = form});
+  add_pair<floors::GeneralizedAlpha<Top>, System>(name,
+                                                  GeneralizedAlpha::Options{.rho_inf = 0.9, .form = form});
 }
 
 }  // namespace

@@ -2,57 +2,84 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include "benchmarks/fast_top.h"
 #include "benchmarks/floors/floor.h"
-#include "integrators/audit.h"
-#include "integrators/newton.h"
+#include "harness/instances/heavy_top_steppers.h"
 
 // Steps of the fast heavy top, by the general steppers and by their floors.
 
 namespace liebench::benchmarks {
 
-inline bool succeeded(const StepResult& result) {
-  return result.outcome == Outcome::ok;
-}
-inline bool succeeded(bool done) {
-  return done;
+// The system whose steps an audit counts.
+template <class S>
+struct PlainSystem {
+  using type = S;
+};
+template <class S>
+struct PlainSystem<Audited<S>> {
+  using type = typename S::template rebind<double>;
+};
+
+template <class Floor>
+Floor started(Floor floor, double h) {
+  const typename Floor::System system{HeavyTopParameters{}};
+  floor.start(h, fast_top_points(system, h, Floor::starting_points));
+  return floor;
 }
 
-template <class Stepper>
-Stepper started(Stepper stepper, double h) {
-  const typename Stepper::System system{HeavyTopParameters{}};
-  int count;
-  if constexpr (requires { stepper.starting_points(); })
-    count = stepper.starting_points();
-  else
-    count = Stepper::starting_points;
-  stepper.start(h, fast_top_points(system, h, count));
+// The general stepper of a method, of the program itself.
+template <MechanicalSystem S>
+std::unique_ptr<AnyStepper<S>> started(const MethodOptions& options, double h) {
+  std::unique_ptr<AnyStepper<S>> stepper = any_stepper(options, S{HeavyTopParameters{}});
+  using Plain = typename PlainSystem<S>::type;
+  const auto points = fast_top_points(Plain{HeavyTopParameters{}}, h, stepper->starting_points());
+  if constexpr (std::is_same_v<S, Plain>) {
+    stepper->start(h, points);
+  } else {
+    std::vector<SolutionPoint<S>> counted;
+    for (const auto& p : points)
+      counted.push_back({p.t, Plain::Group::template cast<Counted>(p.q), p.v.template cast<Counted>(),
+                         p.acceleration.template cast<Counted>(), p.lambda.template cast<Counted>()});
+    stepper->start(h, counted);
+  }
   return stepper;
 }
 
-// Google Benchmark's loop over the steps of a stepper that has been started.
-template <class Stepper>
-void measure(benchmark::State& state, const Stepper& at_start) {
-  Stepper stepper = at_start;
+// Google Benchmark's loop over the steps of a floor that has been started.
+template <class Floor>
+void measure(benchmark::State& state, const Floor& at_start) {
+  Floor floor = at_start;
   for (auto _ : state) {
     // The motion of the first 2 s again and again: outside of it accuracy may be lost, and the step with it.
-    if (stepper.time() > 2.0) stepper = at_start;
-    if (!succeeded(stepper.step())) {
+    if (floor.time() > 2.0) floor = at_start;
+    if (!floor.step()) {
       state.SkipWithError("the step failed");
       break;
     }
-    benchmark::DoNotOptimize(stepper.velocity());
+    benchmark::DoNotOptimize(floor.velocity());
   }
 }
 
-// Registers `name`/general and `name`/floor with h = 1e-4: the benchmark's reporter sets them side by side. Ends the
-// program where the two do not do the same.
-template <class Floor, class General, class Audited, class Options>
-void add_pair(const std::string& name, const Options& options);
+template <MechanicalSystem S>
+void measure(benchmark::State& state, const AnyStepper<S>& at_start) {
+  const std::unique_ptr<AnyStepper<S>> stepper = at_start.clone();
+  for (auto _ : state) {
+    if (stepper->time() > 2.0) stepper->assign(at_start);
+    if (stepper->step().outcome != Outcome::ok) {
+      state.SkipWithError("the step failed");
+      break;
+    }
+    benchmark::DoNotOptimize(stepper->velocity());
+  }
+}
 
 // Registers a floor alone, of a method whose general stepper is not there.
 template <class Floor>
@@ -75,22 +102,25 @@ inline constexpr double position_tolerance = 1e-11, velocity_tolerance = 1e-9;
 // Relative; of the matrices, which may be two dozen, to their number and 20 more.
 inline constexpr double iteration_tolerance = 0.02, matrix_tolerance = 0.1;
 
-template <class Floor, class General>
-void compare(const std::string& name, General general) {
+template <class Floor, class Audited>
+void compare(const std::string& name, const MethodOptions& options) {
   Floor floor = started(Floor{}, 1e-4);
-  general = started(general, 1e-4);
+  const auto general = started<Audited>(options, 1e-4);
   for (int i = 0; i < compared_steps; ++i)
-    if (!succeeded(general.step()) || !succeeded(floor.step())) refuse(name, "failed in step", i, i);
-  const double position = floors::distance(floor.configuration(), general.configuration());
+    if (general->step().outcome != Outcome::ok || !floor.step()) refuse(name, "failed in step", i, i);
+  const double position = floors::distance(floor.configuration(),
+                                           Audited::Group::template cast<double>(general->configuration()));
   if (!(position <= position_tolerance))
     refuse(name, "position, distance and tolerance", position, position_tolerance);
-  const double velocity = floors::distance(floor.velocity(), general.velocity());
+  const double velocity =
+      floors::distance(floor.velocity(), general->velocity().template cast<double>().eval());
   if (!(velocity <= velocity_tolerance))
     refuse(name, "velocity, distance and tolerance", velocity, velocity_tolerance);
-  const double iterations = double(general.audit().iterations), of_floor = double(floor.kept().iterations);
+  const KernelAudit audit = general->audit();
+  const double iterations = double(audit.iterations), of_floor = double(floor.kept().iterations);
   if (std::abs(iterations - of_floor) > iteration_tolerance * iterations)
     refuse(name, "iterations", iterations, of_floor);
-  const double matrices = double(general.audit().factorizations - general.audit().factorizations_start),
+  const double matrices = double(audit.factorizations - audit.factorizations_start),
                own = double(floor.kept().factorizations);
   if (std::abs(matrices - own) > matrix_tolerance * (matrices + 20.0))
     refuse(name, "factorizations", matrices, own);
@@ -99,12 +129,13 @@ void compare(const std::string& name, General general) {
                  of_floor, matrices, own);
 }
 
-template <class Floor, class General, class Audited, class Options>
-void add_pair(const std::string& name, const Options& options) {
-  using System = typename General::System;
-  compare<Floor>(name, Audited(System{HeavyTopParameters{}}, options));
+// Registers `name`/general and `name`/floor with h = 1e-4: the benchmark's reporter sets them side by side. Ends the
+// program where the two do not do the same.
+template <class Floor, MechanicalSystem S>
+void add_pair(const std::string& name, const MethodOptions& options) {
+  compare<Floor, Audited<typename S::template rebind<Counted>>>(name, options);
   benchmark::RegisterBenchmark((name + "/general").c_str(), [options](benchmark::State& state) {
-    measure(state, started(General(System{HeavyTopParameters{}}, options), 1e-4));
+    measure(state, *started<S>(options, 1e-4));
   });
   add_floor<Floor>(name);
 }

@@ -7,8 +7,8 @@
 
 namespace liebench {
 
-// Runs of the heavy top in the formulation System<T>. Instantiated in harness/instances/, one file a formulation and
-// scalar, so that they compile side by side.
+// Runs of the heavy top in the formulation System<T>. Instantiated in harness/instances/, the formulations of one
+// kind and scalar in one file.
 template <template <class> class System, class T>
 RunResult run_heavy_top(const RunRequest& request, const HeavyTopReference& reference);
 

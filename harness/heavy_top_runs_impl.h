@@ -27,9 +27,9 @@ RunResult run_heavy_top(const RunRequest& request, const HeavyTopReference& refe
   const System<T> system(reference.parameters());
   const auto exact = detail::exact_solution<System>(reference);
   if constexpr (std::is_same_v<T, double>)
-    return accuracy_run<System<T>, NoAudit>(request, system, exact);
+    return accuracy_run(request, system, exact);
   else
-    return accuracy_run<Audited<System<T>>, KernelAudit>(request, Audited<System<T>>(system), exact);
+    return accuracy_run(request, Audited<System<T>>(system), exact);
 }
 
 template <template <class> class System>

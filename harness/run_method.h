@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -14,8 +15,7 @@
 #include <vector>
 
 #include "harness/run.h"
-#include "integrators/list.h"
-#include "integrators/self_start.h"
+#include "integrators/any_stepper.h"
 #include "integrators/starting_values.h"
 
 // The inside of the seam: everything from here down is a template on system and scalar.
@@ -156,46 +156,40 @@ T step_size_of(const RunRequest& request) {
     return T(to_double(request.step_size));
 }
 
-// A stepper with the points that it starts from. `exact(t)` is the solution point at t.
-template <class Stepper>
+// A stepper with the points that it starts from.
+template <MechanicalSystem S>
 struct Beginning {
-  using S = typename Stepper::System;
   std::array<SolutionPoint<S>, std::size_t(most_starting_points)> room;
 
-  std::span<SolutionPoint<S>> points(const Stepper& stepper) {
+  std::span<SolutionPoint<S>> points(const AnyStepper<S>& stepper) {
     return std::span(room).first(std::size_t(stepper.starting_points()));
   }
 
-  // What "start": "reference" takes from the reference solution.
+  // What "start": "reference" takes from the reference solution. `exact(t)` is the solution point at t.
   template <class Solution>
-  void take_reference(const Stepper& stepper, const RunRequest& request, const Solution& exact) {
+  void take_reference(const AnyStepper<S>& stepper, const RunRequest& request, const Solution& exact) {
     std::size_t j = 0;
     for (auto& point : points(stepper)) point = rounded<S>(exact(request.step_size * Extended(double(j++))));
   }
 
   // Of a reference start take_reference() goes before.
-  StepResult start(Stepper& stepper, const S& system, const RunRequest& request) {
-    using T = typename S::Scalar;
-    const T h = step_size_of<T>(request);
-    if (request.start == Start::self)
-      if (const StepResult own = self_start(system, T(0.0), h, points(stepper), stepper.audit());
-          own.outcome != Outcome::ok)
-        return own;
-    return stepper.start(h, points(stepper));
+  StepResult start(AnyStepper<S>& stepper, const RunRequest& request) {
+    const auto h = step_size_of<typename S::Scalar>(request);
+    return request.start == Start::self ? stepper.start_itself(h, points(stepper))
+                                        : stepper.start(h, points(stepper));
   }
 };
 
 // Counts what happens on this thread during its life.
 class Counting {
  public:
-  template <class Stepper>
-  RunCost cost(const Stepper& stepper) const {
+  template <MechanicalSystem S>
+  RunCost cost(const AnyStepper<S>& stepper) const {
     RunCost cost;
-    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(stepper.audit())>, KernelAudit>)
-      cost.kernel = stepper.audit();
+    cost.kernel = stepper.audit();
     cost.system = SystemCalls::counts() - system_;
     cost.group = GroupCalls::counts() - group_;
-    if constexpr (std::is_same_v<typename Stepper::T, Counted>)
+    if constexpr (std::is_same_v<typename S::Scalar, Counted>)
       cost.operations = Counted::operations() - operations_;
     return cost;
   }
@@ -206,9 +200,9 @@ class Counting {
   Operations operations_ = Counted::operations();
 };
 
-template <class Stepper>
-std::vector<double> state_of(const Stepper& stepper) {
-  using Group = typename Stepper::Group;
+template <MechanicalSystem S>
+std::vector<double> state_of(const AnyStepper<S>& stepper) {
+  using Group = typename S::Group;
   std::vector<double> state;
   const auto append = [&](const auto& vector) {
     for (Eigen::Index i = 0; i < vector.size(); ++i) state.push_back(to_double(vector(i)));
@@ -221,11 +215,11 @@ std::vector<double> state_of(const Stepper& stepper) {
 
 // One run. `observe(n, q, v, lambda)` sees every state, those of the method's own start included; of the last starting point
 // as the method goes on from it.
-template <class Stepper, class Solution, class Observer>
-void follow(Stepper stepper, const typename Stepper::System& system, const RunRequest& request,
-            const Solution& exact, const Observer& observe, RunResult& result) {
+template <MechanicalSystem S, class Solution, class Observer>
+void follow(AnyStepper<S>& stepper, const RunRequest& request, const Solution& exact, const Observer& observe,
+            RunResult& result) {
   const Counting counting;
-  Beginning<Stepper> beginning;
+  Beginning<S> beginning;
   const auto first = std::uint64_t(stepper.steps());
   const auto fail = [&](const StepResult& step, std::uint64_t n) {
     result.outcome = step.outcome;
@@ -238,7 +232,7 @@ void follow(Stepper stepper, const typename Stepper::System& system, const RunRe
     observe(n, stepper.configuration(), stepper.velocity(), stepper.multipliers());
   };
   if (request.start == Start::reference) beginning.take_reference(stepper, request, exact);
-  const StepResult start = beginning.start(stepper, system, request);
+  const StepResult start = beginning.start(stepper, request);
   if (start.outcome != Outcome::ok) {
     fail(start, first - 1);
   } else {
@@ -258,64 +252,57 @@ void follow(Stepper stepper, const typename Stepper::System& system, const RunRe
   result.end_state = state_of(stepper);
 }
 
-template <class Stepper>
+template <MechanicalSystem S>
 class TimedStepper final : public TimedRun {
  public:
-  using S = typename Stepper::System;
   template <class Solution>
-  TimedStepper(Stepper stepper, const S& system, const RunRequest& request, const Solution& exact)
-      : system_(system), request_(request), fresh_(stepper), started_(stepper) {
-    if (request.start == Start::reference) beginning_.take_reference(fresh_, request, exact);
+  TimedStepper(std::unique_ptr<AnyStepper<S>> stepper, const RunRequest& request, const Solution& exact)
+      : request_(request), fresh_(std::move(stepper)), started_(fresh_->clone()), running_(fresh_->clone()) {
+    if (request.start == Start::reference) beginning_.take_reference(*fresh_, request, exact);
   }
   bool start() override {
-    started_ = fresh_;
-    return beginning_.start(started_, system_, request_).outcome == Outcome::ok;
+    started_->assign(*fresh_);
+    return beginning_.start(*started_, request_).outcome == Outcome::ok;
   }
   bool follow() override {
-    Stepper stepper = started_;
-    for (std::uint64_t n = std::uint64_t(stepper.steps()); n <= request_.steps; ++n)
-      if (stepper.step().outcome != Outcome::ok) return false;
-    last_ = stepper.velocity();
-    return true;
+    running_->assign(*started_);
+    return running_->advance(steps()).outcome == Outcome::ok;
   }
-  std::uint64_t steps() const override { return request_.steps + 1 - std::uint64_t(fresh_.steps()); }
+  std::uint64_t steps() const override { return request_.steps + 1 - std::uint64_t(fresh_->steps()); }
 
  private:
-  S system_;
   RunRequest request_;
-  Beginning<Stepper> beginning_;
-  Stepper fresh_, started_;
-  Velocity<S> last_;
+  Beginning<S> beginning_;
+  std::unique_ptr<AnyStepper<S>> fresh_, started_, running_;
 };
+
+// The options of the method that the request names, of the list of all.
+inline MethodOptions options_of(const RunRequest& request) {
+  std::optional<MethodOptions> options;
+  [&]<class... Methods>(IntegratorList<Methods...>) {
+    const auto attempt = [&]<class Method>(IntegratorList<Method>) {
+      if (Method::name == request.integrator) options = Method::options(request.options);
+    };
+    (attempt(IntegratorList<Methods>{}), ...);
+  }(Integrators{});
+  if (!options)
+    throw std::logic_error(fmt::format("integrator \"{}\" is not in the list", request.integrator));
+  return *options;
+}
 
 }  // namespace detail
 
-// Calls visit(stepper) with the integrator that the request names, of the list of all.
-template <MechanicalSystem S, class Audit, class Visitor>
-void with_method(const RunRequest& request, const S& system, const Visitor& visit) {
-  const auto attempt = [&]<class Method>(IntegratorList<Method>) {
-    if (Method::name != request.integrator) return false;
-    Method::template with_stepper<S, Audit>(Method::options(request.options), system, visit);
-    return true;
-  };
-  const bool found = [&]<class... Methods>(IntegratorList<Methods...>) {
-    return (attempt(IntegratorList<Methods>{}) || ...);
-  }(Integrators{});
-  if (!found) throw std::logic_error(fmt::format("integrator \"{}\" is not in the list", request.integrator));
-}
-
 // Runs the request and compares it with the exact solution. In double nothing is counted (the run is the code that is
 // timed); in extended precision the audit is part of it.
-template <MechanicalSystem S, class Audit, class Solution>
+template <MechanicalSystem S, class Solution>
 RunResult accuracy_run(const RunRequest& request, const S& system, const Solution& exact) {
   RunResult result;
   detail::Monitor<S> monitor(system, request.steps);
   const auto observe = [&](std::uint64_t n, const auto& q, const auto& v, const auto& lambda) {
     monitor.observe(n, q, v, lambda, exact(request.step_size * Extended(double(n))));
   };
-  with_method<S, Audit>(request, system, [&](auto stepper) {
-    detail::follow(std::move(stepper), system, request, exact, observe, result);
-  });
+  const auto stepper = any_stepper(detail::options_of(request), system);
+  detail::follow(*stepper, request, exact, observe, result);
   if (result.outcome == Outcome::ok) monitor.report(result);
   return result;
 }
@@ -324,21 +311,16 @@ RunResult accuracy_run(const RunRequest& request, const S& system, const Solutio
 template <MechanicalSystem S, class Solution>
 RunResult audit_run(const RunRequest& request, const S& system, const Solution& exact) {
   RunResult result;
-  with_method<S, KernelAudit>(request, system, [&](auto stepper) {
-    detail::follow(
-        std::move(stepper), system, request, exact, [](const auto&...) {}, result);
-  });
+  const auto stepper = any_stepper(detail::options_of(request), system);
+  detail::follow(
+      *stepper, request, exact, [](const auto&...) {}, result);
   return result;
 }
 
 template <MechanicalSystem S, class Solution>
 std::unique_ptr<TimedRun> timed_run(const RunRequest& request, const S& system, const Solution& exact) {
-  std::unique_ptr<TimedRun> run;
-  with_method<S, NoAudit>(request, system, [&](auto stepper) {
-    run =
-        std::make_unique<detail::TimedStepper<decltype(stepper)>>(std::move(stepper), system, request, exact);
-  });
-  return run;
+  return std::make_unique<detail::TimedStepper<S>>(any_stepper(detail::options_of(request), system), request,
+                                                   exact);
 }
 
 }  // namespace liebench

@@ -35,6 +35,7 @@ class Audited : public S {
   template <class U>
   using rebind = Audited<typename S::template rebind<U>>;
 
+  using S::S;
   explicit Audited(const S& system) : S(system) {}
 
   template <class U>

@@ -1,20 +1,14 @@
-#include "tests/support/allocation_counter.h"
-// clang-format off: the counter comes before Eigen
-#include "integrators/bliedf2nd.h"
-// clang-format on
-
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "groups/extended.h"
-#include "problems/heavy_top.h"
-#include "tests/support/any_stepper.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/heavy_top_motion.h"
 #include "tests/support/heavy_top_samples.h"
 #include "tests/support/method_cases.h"
+#include "tests/support/steppers.h"
 
 namespace liebench {
 namespace {
@@ -45,7 +39,7 @@ void expect_no_allocation(const S& system, AnyStepper<S>& stepper, const HeavyTo
     const AllocationCounter counter;
     outcome = stepper.start(h, points).outcome;
     // Refreshed factorizations and the rare paths of the stopping rule are among 300 steps.
-    for (int n = 0; n < 300 && outcome == Outcome::ok; ++n) outcome = stepper.step().outcome;
+    if (outcome == Outcome::ok) outcome = stepper.advance(300).outcome;
     allocations = counter.count();
   }
   EXPECT_EQ(outcome, Outcome::ok) << S::formulation << ", " << text;
@@ -61,33 +55,15 @@ void expect_no_allocation_of_any_method() {
     expect_no_allocation(system, *method.stepper(system), motion, method.text());
 }
 
+// Those of the program, where it runs and where it times.
 TEST(EveryMethod, AllocatesNothingInDouble) {
   expect_no_allocation_of_any_method<HeavyTopSO3<double>>();
   expect_no_allocation_of_any_method<HeavyTopR3xSO3<double>>();
 }
 
-// All closures and forms are instantiated in double; the scalar is another matter.
-template <int k, class S>
-void expect_no_allocation_of_bliedf2nd() {
-  const HeavyTopParameters p = slow_top();
-  const S system(p);
-  const HeavyTopMotion motion(p, 0.2);
-  for (const bool modified : {false, true}) {
-    HeldStepper stepper(BLieDF2nd::Stepper<S>(
-        system, BLieDF2nd::Options{.k = k, .modified_start = modified && S::constraints > 0}));
-    expect_no_allocation<S>(system, stepper, motion, "BLieDF2nd");
-  }
-}
-
-TEST(BLieDF2nd, AllocatesNothingInExtendedPrecision) {
-  const auto check = []<class S>(const S*) {
-    expect_no_allocation_of_bliedf2nd<1, S>();
-    expect_no_allocation_of_bliedf2nd<2, S>();
-    expect_no_allocation_of_bliedf2nd<3, S>();
-    expect_no_allocation_of_bliedf2nd<4, S>();
-  };
-  check(static_cast<const HeavyTopSO3<Extended>*>(nullptr));
-  check(static_cast<const HeavyTopR3xSO3<Extended>*>(nullptr));
+TEST(EveryMethod, AllocatesNothingInExtendedPrecision) {
+  expect_no_allocation_of_any_method<ExtendedSO3>();
+  expect_no_allocation_of_any_method<ExtendedR3xSO3>();
 }
 
 }  // namespace

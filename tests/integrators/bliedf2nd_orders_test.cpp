@@ -3,13 +3,9 @@
 #include <array>
 
 #include "integrators/bliedf2nd.h"
-#include "tests/integrators/shared_steppers.h"
 #include "tests/support/observed_order.h"
 
 namespace liebench {
-
-template StepperMaker<BLieDF2nd, Rotation> make_stepper<BLieDF2nd, Rotation, NoAudit>;
-template StepperMaker<BLieDF2nd, Body> make_stepper<BLieDF2nd, Body, NoAudit>;
 
 namespace {
 
@@ -46,7 +42,7 @@ void for_every_corrected(int least, const BLieDF2nd::Options& others, const F& f
 
 TEST(BLieDF2nd, HasOrderKInConfigurationAndVelocity) {
   for_every_corrected(1, {}, [](const BLieDF2nd::Options& options) {
-    const Errors order = orders<Rotation>(options);
+    const Errors order = orders<ExtendedSO3>(options);
     EXPECT_NEAR(order.q, options.k, order_tolerance);
     EXPECT_NEAR(order.v, options.k, order_tolerance);
   });
@@ -55,10 +51,10 @@ TEST(BLieDF2nd, HasOrderKInConfigurationAndVelocity) {
 TEST(BLieDF2nd, HasOrderTwoOnlyWithoutItsCorrection) {
   // A correction of the wrong sign has this order too: with L_k the orders here are above two.
   for (int k = 3; k <= most_steps; ++k) {
-    const Errors rotation = orders<Rotation>({.k = k, .correction = Correction::none});
+    const Errors rotation = orders<ExtendedSO3>({.k = k, .correction = Correction::none});
     EXPECT_NEAR(rotation.q, 2, order_tolerance) << k;
     EXPECT_NEAR(rotation.v, 2, order_tolerance) << k;
-    const Errors body = orders<Body>({.k = k, .correction = Correction::none});
+    const Errors body = orders<ExtendedR3xSO3>({.k = k, .correction = Correction::none});
     EXPECT_NEAR(body.q, 2, order_tolerance) << k;
     EXPECT_NEAR(body.v, 2, order_tolerance) << k;
     EXPECT_NEAR(body.lambda, 2, order_tolerance) << k;
@@ -68,7 +64,7 @@ TEST(BLieDF2nd, HasOrderTwoOnlyWithoutItsCorrection) {
 TEST(BLieDF2nd, HasOrderKWithConstraintsButForLambdaInTheTransientPhase) {
   for_every_corrected(1, {}, [](const BLieDF2nd::Options& options) {
     const int k = options.k;
-    const Errors order = orders<Body>(options);
+    const Errors order = orders<ExtendedR3xSO3>(options);
     expect_orders_at_the_end(order, k);
     // With one step the error of lambda is O(1) there.
     EXPECT_NEAR(order.largest_lambda, k - 1, order_tolerance) << k;
@@ -78,7 +74,7 @@ TEST(BLieDF2nd, HasOrderKWithConstraintsButForLambdaInTheTransientPhase) {
 TEST(BLieDF2nd, KeepsTheOrderOfLambdaFromModifiedStartingVelocities) {
   for_every_corrected(2, {.modified_start = true}, [](const BLieDF2nd::Options& options) {
     const int k = options.k;
-    const Errors order = orders<Body>(options);
+    const Errors order = orders<ExtendedR3xSO3>(options);
     expect_orders_at_the_end(order, k);
     EXPECT_NEAR(order.largest_lambda, k, order_tolerance) << k;
   });
@@ -87,7 +83,7 @@ TEST(BLieDF2nd, KeepsTheOrderOfLambdaFromModifiedStartingVelocities) {
 TEST(BLieDF2nd, HasOrderKInAllComponentsFromTheFirstStepInTheStabilizedForm) {
   for_every_corrected(2, {.form = Form::stabilized_index2}, [](const BLieDF2nd::Options& options) {
     const int k = options.k;
-    const Errors order = orders<Body>(options);
+    const Errors order = orders<ExtendedR3xSO3>(options);
     expect_orders_at_the_end(order, k);
     // No transient phase, from exact starting velocities.
     EXPECT_NEAR(order.largest_lambda, k, order_tolerance) << k;

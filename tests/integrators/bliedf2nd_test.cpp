@@ -16,13 +16,12 @@
 #include "groups/extended.h"
 #include "integrators/list.h"
 #include "problems/heavy_top.h"
-#include "tests/integrators/shared_steppers.h"
-#include "tests/support/any_stepper.h"
 #include "tests/support/heavy_top_motion.h"
 #include "tests/support/heavy_top_samples.h"
 #include "tests/support/observed_order.h"
 #include "tests/support/small_systems.h"
 #include "tests/support/step_law.h"
+#include "tests/support/steppers.h"
 
 namespace liebench {
 namespace {
@@ -200,25 +199,25 @@ void expect_every_method_satisfies_its_equations() {
 
 TEST(BLieDF2nd, StepsSatisfyEquation20) {
   expect_every_method_satisfies_its_equations<HeavyTopSO3<double>>();
-  expect_every_method_satisfies_its_equations<Rotation>();
+  expect_every_method_satisfies_its_equations<ExtendedSO3>();
 }
 
 TEST(BLieDF2nd, StepsSatisfyEquation23) {
   expect_every_method_satisfies_its_equations<HeavyTopR3xSO3<double>>();
-  expect_every_method_satisfies_its_equations<Body>();
+  expect_every_method_satisfies_its_equations<ExtendedR3xSO3>();
 }
 
 TEST(BLieDF2nd, StepsSatisfyEquation23FromModifiedStartingVelocities) {
   for (const Correction correction : corrections)
     for (int k = 1; k <= most_steps; ++k)
-      expect_steps_satisfy_the_equations<Body>(unsymmetric_top(2),
-                                               {.k = k, .correction = correction, .modified_start = true});
+      expect_steps_satisfy_the_equations<ExtendedR3xSO3>(
+          unsymmetric_top(2), {.k = k, .correction = correction, .modified_start = true});
 }
 
 TEST(BLieDF2nd, EveryOneOfManyStepsIsSolvedToRoundOff) {
   // Long enough for the Newton matrix to be made anew and to age many times, with predictions of all qualities.
   const HeavyTopParameters p = slow_top();
-  const Body system(p);
+  const ExtendedR3xSO3 system(p);
   const Extended h(1.0 / 4096);
   const HeavyTopMotion motion(p, 0.1);
   for (const Form form : {Form::index3, Form::stabilized_index2})
@@ -227,11 +226,11 @@ TEST(BLieDF2nd, EveryOneOfManyStepsIsSolvedToRoundOff) {
       const auto stepper = make(system, options);
       const auto points = exact_starting_points(system, motion, h, k + 1);
       ASSERT_EQ(stepper->start(h, points).outcome, Outcome::ok);
-      StepLaw<Body> law(system, h, options);
+      StepLaw<ExtendedR3xSO3> law(system, h, options);
       for (int j = 0; j < k; ++j) law.push(points[std::size_t(j)].q, points[std::size_t(j)].v);
       // Where it stalls the kernel may stop 32 units of eps |q| / h short (integrators/newton.h), and M h v' is
       // gamma_1^2 M d.
-      const double mass = to_double(VelocityMatrix<Body>(system.mass_matrix(points[0].q)).norm());
+      const double mass = to_double(VelocityMatrix<ExtendedR3xSO3>(system.mass_matrix(points[0].q)).norm());
       const double slope = to_double(law.gamma(1) * law.gamma(1));
       const double tolerance = 64 * unit<Extended>() * slope * mass / to_double(h);
       for (int n = k; n <= 2048; ++n) {
@@ -245,7 +244,7 @@ TEST(BLieDF2nd, EveryOneOfManyStepsIsSolvedToRoundOff) {
 
 // Eq. (56) by hand: [M B^T; B 0] [Dv; .] = [0; B l / h] at q_{k-1}.
 TEST(BLieDF2nd, ModifiedStartIsThatOfEquation56) {
-  using S = Body;
+  using S = ExtendedR3xSO3;
   const HeavyTopParameters p = unsymmetric_top(1);
   const S system(p);
   const Extended h(1.0 / 64);

@@ -14,18 +14,14 @@
 #include "groups/extended.h"
 #include "integrators/bliedf2nd.h"
 #include "problems/heavy_top.h"
-#include "tests/integrators/shared_steppers.h"
-#include "tests/support/any_stepper.h"
 #include "tests/support/heavy_top_motion.h"
 #include "tests/support/heavy_top_samples.h"
 #include "tests/support/observed_order.h"
 #include "tests/support/spinning_up.h"
 #include "tests/support/step_law.h"
+#include "tests/support/steppers.h"
 
 namespace liebench {
-
-template StepperMaker<FaltinsenBdf, Rotation> make_stepper<FaltinsenBdf, Rotation, NoAudit>;
-template StepperMaker<FaltinsenBdf, Body> make_stepper<FaltinsenBdf, Body, NoAudit>;
 
 namespace {
 
@@ -164,17 +160,17 @@ void expect_every_method_satisfies_its_equations() {
 
 TEST(FaltinsenBdf, StepsAreTheClassicalMethodInCanonicalCoordinatesAboutTheLastPoint) {
   expect_every_method_satisfies_its_equations<HeavyTopSO3<double>>();
-  expect_every_method_satisfies_its_equations<Rotation>();
+  expect_every_method_satisfies_its_equations<ExtendedSO3>();
 }
 
 TEST(FaltinsenBdf, ConstrainedStepsAreTheClassicalMethodInCanonicalCoordinatesAboutTheLastPoint) {
   expect_every_method_satisfies_its_equations<HeavyTopR3xSO3<double>>();
-  expect_every_method_satisfies_its_equations<Body>();
+  expect_every_method_satisfies_its_equations<ExtendedR3xSO3>();
 }
 
 // Eq. (56) with the local error of this method: B Dv = B l / h, M Dv in the range of B^T.
 TEST(FaltinsenBdf, ModifiedStartTakesTheLocalErrorOfTheMethodFromTheSolution) {
-  using S = Body;
+  using S = ExtendedR3xSO3;
   const HeavyTopParameters p = unsymmetric_top(1);
   const S system(p);
   const Extended h(1.0 / 64);
@@ -210,7 +206,7 @@ Errors orders(const FaltinsenBdf::Options& options) {
 TEST(FaltinsenBdf, HasOrderKInConfigurationAndVelocity) {
   for (const Variant variant : variants)
     for (int k = 1; k <= most_steps; ++k) {
-      const Errors order = orders<Rotation>({.k = k, .variant = variant});
+      const Errors order = orders<ExtendedSO3>({.k = k, .variant = variant});
       EXPECT_NEAR(order.q, k, order_tolerance) << k;
       EXPECT_NEAR(order.v, k, order_tolerance) << k;
     }
@@ -219,7 +215,7 @@ TEST(FaltinsenBdf, HasOrderKInConfigurationAndVelocity) {
 TEST(FaltinsenBdf, HasOrderKWithConstraintsButForLambdaInTheTransientPhase) {
   for (const Variant variant : variants)
     for (int k = 1; k <= most_steps; ++k) {
-      const Errors order = orders<Body>({.k = k, .variant = variant});
+      const Errors order = orders<ExtendedR3xSO3>({.k = k, .variant = variant});
       EXPECT_NEAR(order.q, k, order_tolerance) << k;
       EXPECT_NEAR(order.v, k, order_tolerance) << k;
       EXPECT_NEAR(order.lambda, k, order_tolerance) << k;
@@ -230,7 +226,7 @@ TEST(FaltinsenBdf, HasOrderKWithConstraintsButForLambdaInTheTransientPhase) {
 TEST(FaltinsenBdf, KeepsTheOrderOfLambdaFromModifiedStartingVelocities) {
   for (const Variant variant : variants)
     for (int k = 2; k <= most_steps; ++k) {
-      const Errors order = orders<Body>({.k = k, .variant = variant, .modified_start = true});
+      const Errors order = orders<ExtendedR3xSO3>({.k = k, .variant = variant, .modified_start = true});
       EXPECT_NEAR(order.q, k, order_tolerance) << k;
       EXPECT_NEAR(order.v, k, order_tolerance) << k;
       EXPECT_NEAR(order.lambda, k, order_tolerance) << k;
@@ -241,7 +237,8 @@ TEST(FaltinsenBdf, KeepsTheOrderOfLambdaFromModifiedStartingVelocities) {
 TEST(FaltinsenBdf, HasOrderKInAllComponentsFromTheFirstStepInTheStabilizedForm) {
   for (const Variant variant : variants)
     for (int k = 2; k <= most_steps; ++k) {
-      const Errors order = orders<Body>({.k = k, .variant = variant, .form = Form::stabilized_index2});
+      const Errors order =
+          orders<ExtendedR3xSO3>({.k = k, .variant = variant, .form = Form::stabilized_index2});
       EXPECT_NEAR(order.q, k, order_tolerance) << k;
       EXPECT_NEAR(order.v, k, order_tolerance) << k;
       EXPECT_NEAR(order.lambda, k, order_tolerance) << k;
@@ -287,13 +284,13 @@ TEST(FaltinsenBdf, IsBLieDF2ndWhereNoCommutatorEnters) {
 TEST(FaltinsenBdf, VariantsDifferByOneOrderMoreThanTheirOwn) {
   // What the series leave out is of the size of the local error: the two solutions are next to each other in order k.
   const HeavyTopParameters p = slow_top();
-  const Rotation system(p);
+  const ExtendedSO3 system(p);
   const HeavyTopMotion motion(p, 0.6);
   for (int k = 2; k <= most_steps; ++k) {
     std::vector<double> distance;
     for (const int steps : {256, 512}) {
       const Extended h = Extended(0.5) / double(steps);
-      std::vector<std::unique_ptr<AnyStepper<Rotation>>> pair;
+      std::vector<std::unique_ptr<AnyStepper<ExtendedSO3>>> pair;
       for (const Variant variant : variants) {
         pair.push_back(make(system, {.k = k, .variant = variant}));
         ASSERT_EQ(pair.back()->start(h, exact_starting_points(system, motion, h, k + 1)).outcome,
@@ -301,7 +298,7 @@ TEST(FaltinsenBdf, VariantsDifferByOneOrderMoreThanTheirOwn) {
         for (int n = k; n <= steps; ++n) ASSERT_EQ(pair.back()->step().outcome, Outcome::ok);
       }
       distance.push_back(
-          Rotation::Group::separation(pair[0]->configuration(), pair[1]->configuration()).norm());
+          ExtendedSO3::Group::separation(pair[0]->configuration(), pair[1]->configuration()).norm());
     }
     EXPECT_GT(std::log2(distance[0] / distance[1]), k - 0.2) << k;
     EXPECT_GT(distance[1], 0.0) << k;

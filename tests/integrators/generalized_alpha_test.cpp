@@ -7,14 +7,10 @@
 
 #include "groups/extended.h"
 #include "problems/heavy_top.h"
-#include "tests/integrators/shared_steppers.h"
 #include "tests/support/observed_order.h"
 #include "tests/support/small_systems.h"
 
 namespace liebench {
-
-template StepperMaker<GeneralizedAlpha, Rotation> make_stepper<GeneralizedAlpha, Rotation, NoAudit>;
-template StepperMaker<GeneralizedAlpha, Body> make_stepper<GeneralizedAlpha, Body, NoAudit>;
 
 namespace {
 
@@ -41,14 +37,14 @@ TEST(GeneralizedAlpha, ParametersAreThoseOfChungAndHulbert) {
 
 TEST(GeneralizedAlpha, HasOrderTwoWithoutConstraints) {
   for (const double rho : {0.0, 0.9, 1.0}) {
-    const Errors order = orders<Rotation>({.rho_inf = rho});
+    const Errors order = orders<ExtendedSO3>({.rho_inf = rho});
     EXPECT_NEAR(order.q, 2, order_tolerance) << rho;
     EXPECT_NEAR(order.v, 2, order_tolerance) << rho;
   }
 }
 
 TEST(GeneralizedAlpha, LosesOneOrderOfLambdaInTheTransientPhase) {
-  const Errors order = orders<Body>({});
+  const Errors order = orders<ExtendedR3xSO3>({});
   EXPECT_NEAR(order.largest_q, 2, order_tolerance);
   EXPECT_NEAR(order.largest_v, 2, order_tolerance);
   EXPECT_NEAR(order.lambda, 2, order_tolerance);
@@ -56,7 +52,7 @@ TEST(GeneralizedAlpha, LosesOneOrderOfLambdaInTheTransientPhase) {
 }
 
 TEST(GeneralizedAlpha, KeepsTheOrderOfLambdaFromAPerturbedStartingVelocity) {
-  const Errors order = orders<Body>({.modified_start = true});
+  const Errors order = orders<ExtendedR3xSO3>({.modified_start = true});
   EXPECT_NEAR(order.largest_q, 2, order_tolerance);
   EXPECT_NEAR(order.largest_v, 2, order_tolerance);
   EXPECT_NEAR(order.lambda, 2, order_tolerance);
@@ -64,7 +60,7 @@ TEST(GeneralizedAlpha, KeepsTheOrderOfLambdaFromAPerturbedStartingVelocity) {
 }
 
 TEST(GeneralizedAlpha, HasOrderTwoEverywhereInTheStabilizedForm) {
-  const Errors order = orders<Body>({.form = Form::stabilized_index2});
+  const Errors order = orders<ExtendedR3xSO3>({.form = Form::stabilized_index2});
   EXPECT_NEAR(order.largest_q, 2, order_tolerance);
   EXPECT_NEAR(order.largest_v, 2, order_tolerance);
   EXPECT_NEAR(order.largest_lambda, 2, order_tolerance);

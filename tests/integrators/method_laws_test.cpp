@@ -10,11 +10,11 @@
 
 #include "integrators/affine_closure.h"
 #include "integrators/newton.h"
-#include "tests/support/any_stepper.h"
 #include "tests/support/method_cases.h"
 #include "tests/support/small_systems.h"
 #include "tests/support/spinning_up.h"
 #include "tests/support/step_law.h"
+#include "tests/support/steppers.h"
 
 // Laws of every integrator in every combination of its options on small systems. Those on formulations of the heavy top:
 // tests/support/method_laws.h.

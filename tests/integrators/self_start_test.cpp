@@ -15,7 +15,6 @@
 #include "integrators/list.h"
 #include "problems/audited_system.h"
 #include "problems/heavy_top.h"
-#include "tests/integrators/shared_steppers.h"
 #include "tests/support/heavy_top_motion.h"
 #include "tests/support/heavy_top_samples.h"
 #include "tests/support/observed_order.h"
@@ -63,8 +62,8 @@ void expect_order_six() {
 }
 
 TEST(RungeKuttaMuntheKaas, HasOrderSix) {
-  expect_order_six<Rotation>();
-  expect_order_six<Body>();
+  expect_order_six<ExtendedSO3>();
+  expect_order_six<ExtendedR3xSO3>();
 }
 
 TEST(RungeKuttaMuntheKaas, CountsSevenEvaluationsOfTheDynamicsAStep) {
@@ -126,7 +125,7 @@ void expect_points_on_the_motion() {
 TEST(SelfStart, PointsAreThoseOfTheMotionAndConsistent) {
   expect_points_on_the_motion<HeavyTopSO3<double>>();
   expect_points_on_the_motion<HeavyTopR3xSO3<double>>();
-  expect_points_on_the_motion<Body>();
+  expect_points_on_the_motion<ExtendedR3xSO3>();
 }
 
 template <class S>
@@ -148,7 +147,7 @@ void expect_points_on_the_constraints(const S& system) {
 TEST(SelfStart, PointsSatisfyTheConstraintAndItsDerivativesToRoundOff) {
   for (const HeavyTopParameters& p : {slow_top(), unsymmetric_top(1), unsymmetric_top(2)}) {
     expect_points_on_the_constraints(HeavyTopR3xSO3<double>(p));
-    expect_points_on_the_constraints(Body(p));
+    expect_points_on_the_constraints(ExtendedR3xSO3(p));
   }
 }
 
@@ -242,12 +241,12 @@ void expect_order(int order, const typename Method::Options& options, const std:
 
 template <class Method>
 void expect_orders(int order, typename Method::Options options, const std::string& text) {
-  expect_order<Method, Rotation>(order, options, text);
+  expect_order<Method, ExtendedSO3>(order, options, text);
   options.modified_start = true;
-  expect_order<Method, Body>(order, options, text + ", modified start");
+  expect_order<Method, ExtendedR3xSO3>(order, options, text + ", modified start");
   options.modified_start = false;
   options.form = Form::stabilized_index2;
-  expect_order<Method, Body>(order, options, text + ", stabilized");
+  expect_order<Method, ExtendedR3xSO3>(order, options, text + ", stabilized");
 }
 
 TEST(SelfStart, KeepsTheOrderOfBLieDF2nd) {

@@ -1,24 +1,49 @@
 #include "tests/support/allocation_counter.h"
 
 #include <atomic>
-#include <cstdio>
+#include <cstddef>
 #include <cstdlib>
-#include <cstring>
 #include <new>
 
 namespace {
+std::atomic<unsigned long> count{0};
+}  // namespace
 
-std::atomic<unsigned long> news{0};
-std::atomic<unsigned long> assertions{0};
+// The linker calls these for malloc, ..., and malloc for __real_malloc.
+// NOLINTBEGIN(bugprone-reserved-identifier)
+extern "C" {
+void* __real_malloc(std::size_t size);
+void* __real_calloc(std::size_t number, std::size_t size);
+void* __real_realloc(void* memory, std::size_t size);
+void* __real_aligned_alloc(std::size_t alignment, std::size_t size);
+
+void* __wrap_malloc(std::size_t size) {
+  ++count;
+  return __real_malloc(size);
+}
+void* __wrap_calloc(std::size_t number, std::size_t size) {
+  ++count;
+  return __real_calloc(number, size);
+}
+void* __wrap_realloc(void* memory, std::size_t size) {
+  ++count;
+  return __real_realloc(memory, size);
+}
+void* __wrap_aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++count;
+  return __real_aligned_alloc(alignment, size);
+}
+}
+// NOLINTEND(bugprone-reserved-identifier)
+
+namespace {
 
 void* allocate(std::size_t size) {
-  ++news;
   if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
   throw std::bad_alloc();
 }
 
 void* allocate(std::size_t size, std::align_val_t alignment) {
-  ++news;
   // aligned_alloc asks for a multiple of the alignment.
   const auto unit = static_cast<std::size_t>(alignment);
   if (void* memory = std::aligned_alloc(unit, (size + unit - 1) / unit * unit)) return memory;
@@ -28,30 +53,12 @@ void* allocate(std::size_t size, std::align_val_t alignment) {
 }  // namespace
 
 namespace liebench {
-
-unsigned long operator_new_calls() {
-  return news;
+unsigned long allocations() {
+  return count;
 }
-
-namespace detail {
-
-void eigen_assertion_failed(const char* condition) {
-  // Every other failed assertion is a programmer's error, as ever.
-  if (std::strstr(condition, "is_malloc_allowed") == nullptr) {
-    std::fprintf(stderr, "Eigen assertion failed: %s\n", condition);
-    std::abort();
-  }
-  ++assertions;
-}
-
-unsigned long eigen_assertions() {
-  return assertions;
-}
-
-}  // namespace detail
 }  // namespace liebench
 
-// The replaceable forms; the nothrow and array forms of the standard library call these.
+// That of the standard library calls malloc from a shared library, past the linker. The nothrow forms call these.
 void* operator new(std::size_t size) {
   return allocate(size);
 }

@@ -10,7 +10,7 @@
 
 #include "integrators/list.h"
 #include "integrators/option.h"
-#include "tests/support/any_stepper.h"
+#include "tests/support/steppers.h"
 
 // Every integrator of the program in every combination of its options, for laws that hold for all of them. A new method
 // joins by its line in integrators/list.h.
@@ -79,29 +79,29 @@ struct MethodCase {
   }
 };
 
-template <class Method, MechanicalSystem S, class Audit = NoAudit>
+template <class Method, MechanicalSystem S>
 std::vector<MethodCase<S>> cases_of() {
   std::vector<MethodCase<S>> cases;
   for (const OptionValues& values : option_combinations<Method>(S::constraints > 0))
     cases.push_back({Method::name, values, [options = Method::options(values)](const S& system) {
-                       return make_stepper<Method, S, Audit>(options, system);
+                       return make_stepper<Method, S>(options, system);
                      }});
   return cases;
 }
 
-template <MechanicalSystem S, class Audit, class... Methods>
+template <MechanicalSystem S, class... Methods>
 std::vector<MethodCase<S>> cases_of_all(IntegratorList<Methods...>) {
   std::vector<MethodCase<S>> all;
   const auto append = [&](const std::vector<MethodCase<S>>& cases) {
     all.insert(all.end(), cases.begin(), cases.end());
   };
-  (append(cases_of<Methods, S, Audit>()), ...);
+  (append(cases_of<Methods, S>()), ...);
   return all;
 }
 
-template <MechanicalSystem S, class Audit = NoAudit>
+template <MechanicalSystem S>
 std::vector<MethodCase<S>> every_method() {
-  return cases_of_all<S, Audit>(Integrators{});
+  return cases_of_all<S>(Integrators{});
 }
 
 }  // namespace liebench

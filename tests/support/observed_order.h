@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "integrators/outcome.h"
-#include "integrators/self_start.h"
 #include "integrators/starting_values.h"
-#include "tests/support/any_stepper.h"
 #include "tests/support/heavy_top_motion.h"
 #include "tests/support/heavy_top_samples.h"
+#include "tests/support/steppers.h"
 
 // Observed orders of an integrator on the slow top, in extended precision.
 
@@ -41,11 +40,9 @@ Errors errors_at(double end, int steps, const HeavyTopMotion& motion, const S& s
   using T = typename S::Scalar;
   const T h = T(end) / T(double(steps));
   auto points = exact_starting_points(system, motion, h, stepper.starting_points());
-  if (start == Start::self) {
-    NoAudit audit;
-    EXPECT_EQ(self_start<S>(system, T(0.0), h, points, audit).outcome, Outcome::ok);
-  }
-  EXPECT_EQ(stepper.start(h, points).outcome, Outcome::ok);
+  const StepResult started =
+      start == Start::self ? stepper.start_itself(h, points) : stepper.start(h, points);
+  EXPECT_EQ(started.outcome, Outcome::ok);
   Errors e;
   for (int n = stepper.steps(); n <= steps; ++n) {
     const Outcome outcome = stepper.step().outcome;

@@ -1,7 +1,0 @@
-#include "harness/heavy_top_runs_impl.h"
-
-template liebench::RunResult liebench::run_heavy_top<liebench::HeavyTopSE3, double>(const RunRequest&,
-                                                                                    const HeavyTopReference&);
-
-template std::unique_ptr<liebench::TimedRun> liebench::timed_heavy_top<liebench::HeavyTopSE3>(
-    const RunRequest&, const HeavyTopReference&);

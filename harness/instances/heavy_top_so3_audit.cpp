@@ -1,4 +1,0 @@
-#include "harness/heavy_top_runs_impl.h"
-
-template liebench::RunResult liebench::audit_heavy_top<liebench::HeavyTopSO3>(const RunRequest&,
-                                                                              const HeavyTopReference&);

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "groups/counted.h"
+#include "groups/extended.h"
+#include "integrators/any_stepper.h"
+#include "problems/audited_system.h"
+#include "problems/heavy_top.h"
+
+// The steppers of the paper's two formulations take minutes to compile: those of the runs serve tests and benchmarks, too
+// (library liebench_runs).
+
+namespace liebench {
+
+template <MechanicalSystem S>
+using StepperMaker = std::unique_ptr<AnyStepper<S>>(const MethodOptions&, const S&);
+
+using ExtendedSO3 = Audited<HeavyTopSO3<Extended>>;
+using ExtendedR3xSO3 = Audited<HeavyTopR3xSO3<Extended>>;
+using CountedSO3 = Audited<HeavyTopSO3<Counted>>;
+using CountedR3xSO3 = Audited<HeavyTopR3xSO3<Counted>>;
+
+extern template StepperMaker<HeavyTopSO3<double>> any_stepper;
+extern template StepperMaker<HeavyTopR3xSO3<double>> any_stepper;
+extern template StepperMaker<ExtendedSO3> any_stepper;
+extern template StepperMaker<ExtendedR3xSO3> any_stepper;
+extern template StepperMaker<CountedSO3> any_stepper;
+extern template StepperMaker<CountedR3xSO3> any_stepper;
+
+}  // namespace liebench

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "integrators/audit.h"
+#include "integrators/list.h"
+#include "integrators/outcome.h"
+#include "integrators/self_start.h"
+#include "integrators/starting_values.h"
+#include "problems/audited_system.h"
+#include "problems/system.h"
+
+// The steppers of all methods for one system behind one interface: what lies above (runs, tests) is compiled once for a
+// system, and not once for each stepper. Loops that are timed lie below it, in advance().
+
+namespace liebench {
+
+template <MechanicalSystem S>
+class AnyStepper {
+ public:
+  using System = S;
+  using T = typename S::Scalar;
+
+  virtual ~AnyStepper() = default;
+  virtual int steps() const = 0;
+  virtual int starting_points() const = 0;
+  virtual StepResult start(const T& h, std::span<const SolutionPoint<S>> points) = 0;
+  // From the initial values of the system at t = 0 alone: integrators/self_start.h. Leaves the points that it found in
+  // `points`, of which there are starting_points().
+  virtual StepResult start_itself(const T& h, std::span<SolutionPoint<S>> points) = 0;
+  virtual StepResult step() = 0;
+  // At most so many steps, in one loop; ends with the first that fails.
+  virtual StepResult advance(std::uint64_t steps) = 0;
+  virtual std::unique_ptr<AnyStepper> clone() const = 0;
+  // Becomes what `other` is, a stepper of the same type; allocates nothing.
+  virtual void assign(const AnyStepper& other) = 0;
+  virtual const S& system() const = 0;
+  virtual const T& time() const = 0;
+  virtual const Configuration<S>& configuration() const = 0;
+  virtual const Velocity<S>& velocity() const = 0;
+  virtual const Multipliers<S>& multipliers() const = 0;
+  // Of a stepper that counts; zeros of one that does not.
+  virtual KernelAudit audit() const = 0;
+};
+
+template <class Stepper>
+class HeldStepper final : public AnyStepper<typename Stepper::System> {
+ public:
+  using S = typename Stepper::System;
+  using T = typename S::Scalar;
+  // No pointer, no vector: all that a step needs is in the stepper itself.
+  static_assert(std::is_trivially_destructible_v<Stepper>);
+
+  explicit HeldStepper(const Stepper& stepper) : stepper_(stepper) {}
+  int steps() const override { return stepper_.steps(); }
+  int starting_points() const override { return stepper_.starting_points(); }
+  StepResult start(const T& h, std::span<const SolutionPoint<S>> points) override {
+    return stepper_.start(h, points);
+  }
+  StepResult start_itself(const T& h, std::span<SolutionPoint<S>> points) override {
+    if (const StepResult found = self_start(stepper_.system(), T(0.0), h, points, stepper_.audit());
+        found.outcome != Outcome::ok)
+      return found;
+    return stepper_.start(h, points);
+  }
+  StepResult step() override { return stepper_.step(); }
+  StepResult advance(std::uint64_t steps) override {
+    StepResult result{};
+    for (std::uint64_t i = 0; i < steps && result.outcome == Outcome::ok; ++i) result = stepper_.step();
+    return result;
+  }
+  std::unique_ptr<AnyStepper<S>> clone() const override { return std::make_unique<HeldStepper>(*this); }
+  void assign(const AnyStepper<S>& other) override { *this = static_cast<const HeldStepper&>(other); }
+  const S& system() const override { return stepper_.system(); }
+  const T& time() const override { return stepper_.time(); }
+  const Configuration<S>& configuration() const override { return stepper_.configuration(); }
+  const Velocity<S>& velocity() const override { return stepper_.velocity(); }
+  const Multipliers<S>& multipliers() const override { return stepper_.multipliers(); }
+  KernelAudit audit() const override {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(stepper_.audit())>, KernelAudit>) {
+      return stepper_.audit();
+    } else {
+      return {};
+    }
+  }
+
+ private:
+  Stepper stepper_;
+};
+
+// What the kernel of a stepper for S counts: all of an audited system, nothing of another.
+template <MechanicalSystem S>
+struct AuditOf {
+  using type = NoAudit;
+};
+template <MechanicalSystem S>
+struct AuditOf<Audited<S>> {
+  using type = KernelAudit;
+};
+
+// The stepper of a method that its options ask for.
+template <class Method, MechanicalSystem S>
+std::unique_ptr<AnyStepper<S>> held_stepper(const typename Method::Options& options, const S& system) {
+  return Method::template with_stepper<S, typename AuditOf<S>::type>(
+      options, system, []<class Stepper>(const Stepper& stepper) -> std::unique_ptr<AnyStepper<S>> {
+        return std::make_unique<HeldStepper<Stepper>>(stepper);
+      });
+}
+
+// The options of any method: they say which method it is.
+namespace detail {
+template <class List>
+struct OptionsOf;
+template <class... Methods>
+struct OptionsOf<IntegratorList<Methods...>> {
+  using type = std::variant<typename Methods::Options...>;
+};
+}  // namespace detail
+using MethodOptions = detail::OptionsOf<Integrators>::type;
+
+// The stepper of any method; explicitly instantiated where it is compiled once for all (harness/instances).
+template <MechanicalSystem S>
+std::unique_ptr<AnyStepper<S>> any_stepper(const MethodOptions& options, const S& system) {
+  std::unique_ptr<AnyStepper<S>> stepper;
+  [&]<class... Methods>(IntegratorList<Methods...>) {
+    const auto attempt = [&]<class Method>(IntegratorList<Method>) {
+      if (const auto* own = std::get_if<typename Method::Options>(&options))
+        stepper = held_stepper<Method, S>(*own, system);
+    };
+    (attempt(IntegratorList<Methods>{}), ...);
+  }(Integrators{});
+  return stepper;
+}
+
+}  // namespace liebench
