@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -81,6 +83,11 @@ Eigen::Matrix<Extended, 3, 3> rounded(const WideMatrix& A) {
   return B;
 }
 
+std::uint64_t next_identity() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
 template <class T>
 void append(std::string& bytes, const T& value) {
   std::array<char, sizeof(T)> raw;
@@ -103,7 +110,7 @@ T take(std::string_view& bytes) {
 
 HeavyTopReference::HeavyTopReference(Prepared, const HeavyTopParameters& parameters, double t_end,
                                      double margin)
-    : parameters_(parameters), t_end_(t_end), margin_(margin) {
+    : identity_(next_identity()), parameters_(parameters), t_end_(t_end), margin_(margin) {
   if (!(t_end > 0 && std::isfinite(t_end))) {
     throw std::invalid_argument("heavy top reference: t_end must be positive and finite");
   }
@@ -188,6 +195,23 @@ void HeavyTopReference::compute() {
 }
 
 HeavyTopState HeavyTopReference::at(const Extended& t) const {
+  // 15 MB a thread.
+  constexpr unsigned memory_bits = 14;
+  struct Remembered {
+    std::uint64_t identity = 0;
+    HeavyTopState state;
+  };
+  thread_local std::vector<Remembered> memory(std::size_t{1} << memory_bits);
+  constexpr std::uint64_t golden = 0x9e3779b97f4a7c15U;
+  Remembered& place = memory[(std::bit_cast<std::uint64_t>(t.x[0]) * golden) >> (64 - memory_bits)];
+  if (place.identity != identity_ || place.state.t.x[0] != t.x[0] || place.state.t.x[1] != t.x[1]) {
+    place.state = computed_at(t);
+    place.identity = identity_;
+  }
+  return place.state;
+}
+
+HeavyTopState HeavyTopReference::computed_at(const Extended& t) const {
   const HeavyTopTrajectory::Values v = trajectory_.at(t);
   HeavyTopState state;
   state.t = t;

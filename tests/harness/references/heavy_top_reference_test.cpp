@@ -158,6 +158,23 @@ TEST(HeavyTopReference, AnswersSeveralThreadsAlike) {
   for (const int count : equal) EXPECT_EQ(count, 101);
 }
 
+// What a thread remembers of one solution is not taken for another's, nor a time for one that rounds to the same double.
+TEST(HeavyTopReference, RemembersTimesOfItsOwn) {
+  HeavyTopParameters p;
+  p.angular_velocity = {0, 3, 1};
+  const HeavyTopReference slow(p, 0.1, 0.0);
+  for (int round = 0; round < 3; ++round)
+    for (int i = 0; i <= 20; ++i) {
+      const Extended t = Extended(0.001) * double(i);
+      const auto quaternion = slow.at(t).orientation;
+      EXPECT_NE(quaternion(0) == fast_top().at(t).orientation(0), i > 0);
+      EXPECT_TRUE(identical(slow.at(t), HeavyTopReference(slow).at(t)));
+    }
+  const Extended t = 0.05, next = t + Extended(1e-20);
+  ASSERT_EQ(to_double(t), to_double(next));
+  EXPECT_NE(to_double(Extended((slow.at(next).omega - slow.at(t).omega).norm())), 0.0);
+}
+
 // An upright top at rest: the rounding of 1e-50 alone decides whither it falls: 1e-50 exp(2.6 t) after t
 // seconds.
 TEST(HeavyTopReference, RefusesASolutionThatItsWitnessesDoNotConfirm) {
