@@ -10,7 +10,7 @@
 // The window rule, the same for every method, quantity and precision:
 //
 //   1. A point counts if h and e are finite and positive and e is at least 30 times the error estimate of
-//      the reference.
+//      the reference. Of more than 32 such points those count that are next to 32 equidistant places in log h.
 //   2. Points follow one power law if every secant slope of log e over log h lies within 0.05 of their
 //      median slope. Points more than 10 % below the law (an error that changes sign) are left out of the
 //      secants: none at an end, no two in a row, at most one in five. A law falls at least as h^(1/2); a
@@ -66,7 +66,7 @@ struct OrderEstimate {
   double uncertainty = 0;
 
   // Half-width of the 68.27 % confidence interval of p from scatter alone: sqrt of the covariance of p
-  // (ceres::Covariance) times the residual standard deviation with n - 2 degrees of freedom (dips not
+  // times the residual standard deviation with n - 2 degrees of freedom (dips not
   // counted) times Student's t for these degrees of freedom: 1.84 for three points, 1.32 for four, 1 for
   // many.
   double fit_uncertainty = 0;

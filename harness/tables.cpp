@@ -2,11 +2,37 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <map>
+#include <thread>
 
 #include "harness/select.h"
 
 namespace liebench {
+
+namespace {
+
+std::vector<Row> order_rows(const Curve& curve) {
+  std::vector<Row> rows;
+  for (const char* component : {"q", "v", "lambda"})
+    for (const char* norm : {"end_relative", "max_absolute"}) {
+      const Quantity quantity{component, norm};
+      if (std::none_of(curve.records.begin(), curve.records.end(),
+                       [&](const Json* record) { return error_of(*record, quantity).has_value(); }))
+        continue;
+      const OrderFit fit = fit_curve(curve, quantity);
+      if (fit.estimate)
+        rows.push_back({curve.label, describe(quantity), fit.estimate->order, fit.estimate->uncertainty,
+                        fit.estimate->h_min, fit.estimate->h_max, std::int64_t(fit.estimate->points),
+                        fit.estimate->still_changing ? std::string("slope still changing") : std::string()});
+      else
+        rows.push_back({curve.label, describe(quantity), {}, {}, {}, {}, {}, fit.reason});
+    }
+  return rows;
+}
+
+}  // namespace
 
 Table orders_table(const std::vector<Json>& records) {
   Table table("Observed orders of convergence; window and uncertainty by the rule of docs/orders.md",
@@ -18,21 +44,21 @@ Table orders_table(const std::vector<Json>& records) {
                {.header = "to h", .unit = "s", .kind = ColumnKind::number, .alignment = Alignment::right},
                {.header = "points", .kind = ColumnKind::integer, .alignment = Alignment::right},
                {.header = "remark"}});
-  for (const Curve& curve : curves(records))
-    for (const char* component : {"q", "v", "lambda"})
-      for (const char* norm : {"end_relative", "max_absolute"}) {
-        const Quantity quantity{component, norm};
-        bool applies = false;
-        for (const Json* record : curve.records) applies = applies || error_of(*record, quantity).has_value();
-        if (!applies) continue;
-        const OrderFit fit = fit_curve(curve, quantity);
-        if (fit.estimate)
-          table.add_row({curve.label, describe(quantity), fit.estimate->order, fit.estimate->uncertainty,
-                         fit.estimate->h_min, fit.estimate->h_max, std::int64_t(fit.estimate->points),
-                         fit.estimate->still_changing ? std::string("slope still changing") : std::string()});
-        else
-          table.add_row({curve.label, describe(quantity), {}, {}, {}, {}, {}, fit.reason});
-      }
+  const std::vector<Curve> list = curves(records);
+  // Curves by threads: there may be thousands, and a fit takes a tenth of a millisecond.
+  std::vector<std::vector<Row>> rows(list.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < list.size(); i = next++) rows[i] = order_rows(list[i]);
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (unsigned i = 1; i < std::min(8U, std::thread::hardware_concurrency()); ++i)
+      threads.emplace_back(work);
+    work();
+  }
+  for (std::vector<Row>& of_curve : rows)
+    for (Row& row : of_curve) table.add_row(std::move(row));
   return table;
 }
 

@@ -1,12 +1,16 @@
 #include "harness/order_fit.h"
 
+#include <ceres/ceres.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <random>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace liebench {
@@ -92,6 +96,66 @@ TEST(OrderFit, ThreePointsHaveStudentsUncertainty) {
   // The robust loss takes residuals of 0.005 at a scale of 0.05 down by 1 %.
   EXPECT_NEAR(fit.estimate->fit_uncertainty, 1.837 * d / std::sqrt(3), 0.02 * d);
   EXPECT_NEAR(fit.estimate->uncertainty, std::hypot(fit.estimate->fit_uncertainty, d), 0.02 * d);
+}
+
+struct CeresFit {
+  double order, uncertainty;
+};
+
+// The same fit, all points in the window and none a dip, by Ceres: solver, robust loss and covariance.
+CeresFit fit_by_ceres(const Points& points) {
+  double offset = 0, slope = 2;
+  ceres::Problem::Options ownership;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  constexpr double scale = 0.05;
+  ceres::CauchyLoss loss(scale);
+  for (const ErrorPoint& point : points) {
+    const auto law = [x = std::log(point.step_size), y = std::log(point.error)](const auto* a, const auto* p,
+                                                                                auto* residual) {
+      *residual = *a + *p * x - y;
+      return true;
+    };
+    using Cost = ceres::AutoDiffCostFunction<std::remove_const_t<decltype(law)>, 1, 1, 1>;
+    problem.AddResidualBlock(new Cost(new auto(law)), &loss, &offset, &slope);
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.function_tolerance = options.gradient_tolerance = options.parameter_tolerance = 1e-15;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  ceres::Covariance covariance({});
+  const std::vector<std::pair<const double*, const double*>> blocks{{&slope, &slope}};
+  double variance = 0, squares = 0;
+  EXPECT_TRUE(covariance.Compute(blocks, &problem) &&
+              covariance.GetCovarianceBlock(&slope, &slope, &variance));
+  for (const ErrorPoint& point : points) {
+    const double residual = offset + slope * std::log(point.step_size) - std::log(point.error);
+    squares += residual * residual / (1 + residual * residual / (scale * scale));
+  }
+  const double freedom = double(points.size()) - 2;
+  const double student =
+      boost::math::quantile(boost::math::students_t_distribution<double>(freedom), 0.5 + 0.6827 / 2);
+  return {slope, student * std::sqrt(squares / freedom * variance)};
+}
+
+TEST(OrderFit, IsTheFitOfCeres) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(-0.02, 0.02);
+  int compared = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Points points =
+        curve(1e-2, 2, 4 + i % 9, [&](double h) { return 5 * h * h * std::exp(uniform(random)); });
+    const OrderFit fit = fit_order(points);
+    if (!fit.estimate || std::size_t(fit.estimate->points) != points.size() || fit.estimate->dips > 0)
+      continue;
+    ++compared;
+    const CeresFit expected = fit_by_ceres(points);
+    EXPECT_NEAR(fit.estimate->order, expected.order, 1e-9);
+    EXPECT_NEAR(fit.estimate->fit_uncertainty, expected.uncertainty, 1e-6 * expected.uncertainty);
+  }
+  EXPECT_GT(compared, 50);
 }
 
 TEST(OrderFit, LeavesThePreAsymptoticSideOut) {
