@@ -44,6 +44,14 @@ Table table_of(const std::vector<Json>& records, const TableOptions& options) {
   return cost_accuracy_table(records, quantity, options.targets);
 }
 
+// What the table is made of.
+RecordNeeds needs_of(const TableOptions& options) {
+  if (options.kind == "orders") return RecordNeeds({"errors"});
+  if (options.kind == "outcomes") return RecordNeeds({});
+  if (options.kind == "costs") return RecordNeeds({"cost", "time"});
+  return RecordNeeds({"errors/" + options.y, "cost/residuals", "cost/flops", "time/total_ns"});
+}
+
 void table(const TableOptions& options) {
   for (const double target : options.targets)
     if (!std::isfinite(target) || target <= 0)
@@ -51,7 +59,7 @@ void table(const TableOptions& options) {
   // Never freed: the program ends with its answer, and freeing many records takes as long as reading them.
   static const std::vector<Json>& records = *new std::vector<Json>(
       read_records(std::vector<std::filesystem::path>(options.files.begin(), options.files.end()),
-                   options.skip_bad_lines ? BadLines::skip : BadLines::reject));
+                   options.skip_bad_lines ? BadLines::skip : BadLines::reject, needs_of(options)));
   if (records.empty()) throw InputError(options.files.front(), "holds no records");
   const Table result = table_of(records, options);
   const TableFormat format = options.format == "latex" ? TableFormat::latex

@@ -27,6 +27,10 @@ Json good() {
   return power_law_record({.step_size = 0.01}, 2);
 }
 
+RecordNeeds everything() {
+  return RecordNeeds({"errors", "cost", "time", "drift"}).with_shared_parameters();
+}
+
 Json keyed(int key) {
   Json record = good();
   record["key"] = std::to_string(key);
@@ -38,13 +42,47 @@ TEST_F(RecordReader, KeepsAllButWhatNoTableNeeds) {
   record["text"] = "a \"quoted\" \u03bb";
   record["nested"] = Json::parse(R"([[], {}, [1, -2, 1.5e-300, true, null], {"provenance": {"method": 1}}])");
   const auto file = write(record.dump());
-  const auto with_drift = read_records({file}, BadLines::reject, DriftOfRuns::keep);
+  const auto with_drift = read_records({file}, BadLines::reject, everything());
   for (const char* key : {"provenance", "requested_step_size"}) record.erase(key);
   record["reference"].erase("method");
   ASSERT_EQ(with_drift.size(), 1u);
   EXPECT_EQ(with_drift[0].dump(), record.dump());
   record.erase("drift");
   EXPECT_EQ(read_records(file).at(0).dump(), record.dump());
+}
+
+TEST_F(RecordReader, KeepsOfASectionTheEntriesAskedFor) {
+  Json record = good();
+  record["time"] = {{"total_ns", 7}, {"ns_per_step", {{"median", 1}, {"samples", {1, 2}}}}};
+  const auto file = write(record.dump());
+  const Json kept =
+      read_records({file}, BadLines::reject, RecordNeeds({"errors/v", "cost/residuals", "time/total_ns"}))
+          .at(0);
+  EXPECT_EQ(kept["errors"], Json({{"v", record["errors"]["v"]}}));
+  EXPECT_EQ(kept["cost"], Json({{"residuals", record["cost"]["residuals"]}}));
+  EXPECT_EQ(kept["time"], Json({{"total_ns", 7}}));
+  EXPECT_EQ(kept["options"], record["options"]);
+  const Json bare = read_records({file}, BadLines::reject, RecordNeeds({})).at(0);
+  EXPECT_EQ(bare["errors"], Json::object());
+  EXPECT_EQ(bare["cost"], Json::object());
+  EXPECT_FALSE(bare.contains("time"));
+  EXPECT_FALSE(bare.contains("drift"));
+}
+
+TEST_F(RecordReader, ParametersThatTellNothingApartAreLeftOut) {
+  Json first = keyed(1), second = keyed(2);
+  const Json parameters = first["parameters"];
+  const RecordNeeds needs({"errors"});
+  const std::string both = first.dump() + "\n" + second.dump() + "\n";
+  for (const Json& record : read_records({write(both)}, BadLines::reject, needs))
+    EXPECT_EQ(record["parameters"], Json::object());
+  second["parameters"]["mass"] = 16.5;
+  const auto kept = read_records({write(first.dump() + "\n" + second.dump())}, BadLines::reject, needs);
+  ASSERT_EQ(kept.size(), 2u);
+  EXPECT_EQ(kept[0]["parameters"], parameters);
+  EXPECT_EQ(kept[1]["parameters"], second["parameters"]);
+  second["parameters"] = 5;
+  EXPECT_THROW(read_records({write(second.dump())}, BadLines::reject, needs), InputError);
 }
 
 TEST_F(RecordReader, ChecksAsJsonWhatItDoesNotKeep) {
