@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "harness/errors.h"
@@ -87,6 +89,19 @@ Series series_of(const std::string& label, const CurveLook& look, std::size_t cu
           .secondary = look.secondary,
           .mark = curves > most_named_curves ? look.style : look.mark};
 }
+
+// A number for each entry of the legend, in its order.
+class Tags {
+ public:
+  std::string operator()(const Series& series) {
+    const auto key = std::tuple(series.label, series.style, series.secondary, series.mark);
+    return std::to_string(numbers_.try_emplace(key, numbers_.size() + 1).first->second);
+  }
+  std::size_t count() const { return numbers_.size(); }
+
+ private:
+  std::map<std::tuple<std::string, int, bool, int>, std::size_t> numbers_;
+};
 
 using Rows = std::vector<const Json*>;
 
@@ -182,6 +197,7 @@ std::string failures_text(const std::vector<Json>& records) {
 RecordFigure error_figure(const std::vector<Json>& records, const Abscissa& x, const Quantity& quantity,
                           bool panels) {
   RecordFigure result;
+  Tags tags;
   const auto parts = split(records, panels);
   Looks looks(parts.size() > 1);
   for (const auto& [title, rows] : parts) {
@@ -221,10 +237,15 @@ RecordFigure error_figure(const std::vector<Json>& records, const Abscissa& x, c
         result.left_out += without_place;
       else
         series.failures.insert(series.failures.end(), without_place, {series.points.front().x, 0.0});
-      if (!series.points.empty() || !series.failures.empty()) panel.series.push_back(std::move(series));
+      if (series.points.empty() && series.failures.empty()) continue;
+      if (list.size() <= most_named_curves) series.tag = tags(series);
+      panel.series.push_back(std::move(series));
     }
     if (!panel.series.empty()) result.figure.panels.push_back(std::move(panel));
   }
+  if (tags.count() == 1)
+    for (Panel& panel : result.figure.panels)
+      for (Series& series : panel.series) series.tag.clear();
   result.figure.failures = plain_text(failures_text(records));
   arrange(result.figure);
   return result;

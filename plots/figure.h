@@ -35,6 +35,9 @@ struct Series {
   bool broad = false;
   /// Mark of another style; negative: that of `style`. So that colours tell groups apart and marks their members.
   int mark = -1;
+  /// A short text beside the curve's last point and in front of its label in the legend: what it is, without a search for its
+  /// colour. May be empty.
+  std::string tag = {};
   /// Joined in this order. A y that is not finite counts as a failure at its x; a y that a logarithmic axis
   /// cannot show (an error of exactly 0), or beyond an explicit range, is drawn as an open triangle at that
   /// edge.

@@ -90,7 +90,8 @@ std::string run_gnuplot(const std::string& script) {
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, fileno(errors.get()), STDERR_FILENO);
 
-  std::array<std::string, 3> words{program, "-d", "-"};
+  // Not "-": what it reads from its standard input gnuplot reads letter by letter, a system call each.
+  std::array<std::string, 3> words{program, "-d", "/dev/stdin"};
   std::array<char*, 4> argv{words[0].data(), words[1].data(), words[2].data(), nullptr};
   std::vector<std::string> environment = child_environment();
   std::vector<char*> envp;

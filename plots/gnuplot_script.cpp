@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "plots/curve_tags.h"
 #include "plots/edge_marks.h"
 #include "plots/layout.h"
 #include "plots/slope_triangles.h"
@@ -21,8 +24,11 @@ namespace {
 constexpr std::size_t marks_per_line = 24;
 // A panel with more points than this is drawn in lines alone: marks would cover each other, and the file would be large.
 constexpr std::size_t most_marks = 2000;
+// Beyond, curves of one look share a datablock: gnuplot looks for a datablock among all others.
+constexpr std::size_t most_datablocks = 200;
 // Points of a curve that lie closer than this (1/72 inch) are one.
 constexpr double least_distance = 0.3;
+constexpr double tag_font_size = 8;
 
 std::string plot_style(const Look& look, std::size_t point_count, bool marked) {
   if (!marked && !look.dashes.empty())
@@ -74,6 +80,7 @@ std::vector<std::string> curve_lines(const Series& series, const Axes& axes) {
 struct Curve {
   std::string name;
   std::string look;
+  std::vector<std::string> lines;
 };
 
 /// Writes the datablocks of a panel and returns what is to be plotted, from the bottom to the top.
@@ -84,15 +91,27 @@ std::vector<Curve> write_panel_data(std::string& script, const Panel& panel, con
   const std::vector<FailureMark> marks = failure_marks(panel, axes.x);
   std::size_t points = 0;
   for (const Series& series : panel.series) points += series.points.size();
+  const bool share = panel.series.size() > most_datablocks;
+  std::map<std::pair<bool, std::string>, std::size_t> shared;
   for (std::size_t index = 0; index < panel.series.size(); ++index) {
     const Series& series = panel.series[index];
     const std::string_view colour = colour_of(series);
     const auto add = [&](std::string_view kind, std::span<const std::string> lines, const Look& look,
                          bool low) {
       if (lines.empty()) return;
-      const std::string name = fmt::format("panel{}_{}{}", number, kind, index + 1);
-      write_data(script, name, lines);
-      (low ? beneath : above).push_back({name, plot_style(look, lines.size(), points <= most_marks)});
+      std::vector<Curve>& curves = low ? beneath : above;
+      const std::string style = plot_style(look, lines.size(), points <= most_marks);
+      if (share) {
+        const auto [place, fresh] = shared.try_emplace(std::pair(low, style), curves.size());
+        if (!fresh) {
+          std::vector<std::string>& all = curves[place->second].lines;
+          all.emplace_back();
+          all.insert(all.end(), lines.begin(), lines.end());
+          return;
+        }
+      }
+      curves.push_back({fmt::format("panel{}_{}{}", number, kind, index + 1), style,
+                        std::vector<std::string>(lines.begin(), lines.end())});
     };
     add("curve", curve_lines(series, axes), look_of(series), series.secondary || series.broad);
 
@@ -115,6 +134,7 @@ std::vector<Curve> write_panel_data(std::string& script, const Panel& panel, con
     add("failed", crosses, failure_look(colour, series.secondary), false);
   }
   beneath.insert(beneath.end(), above.begin(), above.end());
+  for (const Curve& curve : beneath) write_data(script, curve.name, curve.lines);
   return beneath;
 }
 
@@ -211,6 +231,12 @@ std::string panel_commands(const Layout& layout, const Panel& panel, const Panel
         "font ',{4}' front\n",
         tag, line.x, colour, gnuplot_literal(line.text), order_font_size, i % 2 == 0 ? 0.03 : 0.36);
   }
+  for (const CurveTag& own : place_tags(panel, axes)) {
+    ++tag;
+    result += fmt::format("set label {} {} at first {},{} center font ',{}' tc rgb '{}' front boxed\n", tag,
+                          gnuplot_literal(own.text), axes.x.value(own.at.x), axes.y.value(own.at.y),
+                          tag_font_size, own.colour);
+  }
   if (curves.empty()) {
     ++tag;
     result += fmt::format("set label {} 'no data' at graph 0.5,0.5 center tc rgb '#606060'\n", tag);
@@ -262,7 +288,8 @@ std::string gnuplot_script(const Figure& figure, std::span<const std::filesystem
                            std::span<const std::filesystem::path> written_to) {
   const Layout layout = lay_out(figure);
   std::string script = "set encoding utf8\nset samples 2\n";
-  std::string body = "set multiplot\nunset key\n";
+  std::string body =
+      "set multiplot\nunset key\nset style textbox opaque margins 0.2,0.2 fillcolor '#ffffff' noborder\n";
   const auto columns = static_cast<std::size_t>(figure.columns);
   if (!figure.title.empty()) {
     body += fmt::format("set label 1000 {} at screen 0.5,{:.5f} center font ',{}'\n",

@@ -49,14 +49,14 @@ std::vector<double> Legend::column_widths() const {
 
 Legend legend_of(std::span<const Panel> panels, std::span<const Axes> axes, double width,
                  const std::string& failures_text) {
-  std::vector<std::tuple<std::string, int, bool, int>> seen;
+  std::vector<std::tuple<std::string, std::string, int, bool, int>> seen;
   std::vector<const Series*> primary;
   std::vector<const Series*> secondary;
   bool failures = false;
   bool edges = false;
   for (std::size_t index = 0; index < panels.size(); ++index) {
     for (const Series& series : panels[index].series) {
-      const auto key = std::tuple(series.label, series.style, series.secondary, series.mark);
+      const auto key = std::tuple(series.tag, series.label, series.style, series.secondary, series.mark);
       if (series.label.empty() || std::ranges::find(seen, key) != seen.end()) continue;
       seen.push_back(key);
       (series.secondary ? secondary : primary).push_back(&series);
@@ -68,7 +68,10 @@ Legend legend_of(std::span<const Panel> panels, std::span<const Axes> axes, doub
   // The two variants of a style stand below each other, what needs no style in a column of its own.
   Legend result;
   const bool paired = !primary.empty() && primary.size() == secondary.size();
-  const auto add = [&](const Series* series) { result.entries.push_back({look_of(*series), series->label}); };
+  const auto add = [&](const Series* series) {
+    result.entries.push_back(
+        {look_of(*series), series->tag.empty() ? series->label : series->tag + "  " + series->label});
+  };
   for (std::size_t index = 0; index < primary.size(); ++index) {
     add(primary[index]);
     if (paired) add(secondary[index]);
