@@ -12,7 +12,7 @@ function(liebench_provenance target header)
     COMMAND
       "${CMAKE_COMMAND}" "-DOUTPUT=${source}" "-DHEADER=${header}" "-DSOURCE_DIR=${PROJECT_SOURCE_DIR}"
       "-DVERSION=${PROJECT_VERSION}" "-DCOMPILER=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}"
-      "-DFLAGS=${flags} -ffp-contract=off -fno-math-errno" "-DCERES=${Ceres_VERSION}" "-DQD=${QD_VERSION}" -P
+      "-DFLAGS=${flags} -ffp-contract=off -fno-math-errno" "-DQD=${QD_VERSION}" -P
       "${PROJECT_SOURCE_DIR}/cmake/write_build_info.cmake"
     BYPRODUCTS "${source}"
     VERBATIM)

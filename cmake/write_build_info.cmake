@@ -22,7 +22,6 @@ BuildInfo build_info() {
           .dirty = ${dirty},
           .compiler = \"${COMPILER}\",
           .flags = \"${FLAGS}\",
-          .ceres = \"${CERES}\",
           .qd = \"${QD}\"};
 }
 

@@ -121,7 +121,7 @@ Figure cost_accuracy_figure(const std::vector<Json>& records) {
     for (Json& record : rows_of(records, setting)) shown.push_back(std::move(record));
   Figure figure = error_figure(shown, dearest_abscissa(shown), error_of_q, true).figure;
   for (std::size_t i = 0; i < figure.panels.size() && i < shown_settings.size(); ++i)
-    figure.panels[i].title = plain_text(shown_settings[i].title);
+    figure.panels[i].title = shown_settings[i].title;
   figure.title = "What accuracy costs: heavy top over 2 s, every method from its own start";
   return figure;
 }

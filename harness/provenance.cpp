@@ -34,7 +34,6 @@ Json provenance() {
   j["cpu"] = cpu_model();
   Json& libraries = j["libraries"];
   libraries["eigen"] = fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
-  libraries["ceres"] = build.ceres;
   libraries["qd"] = build.qd;
   libraries["boost"] =
       fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100);

@@ -13,7 +13,6 @@ struct BuildInfo {
   bool dirty = false;  // sources differ from the commit
   std::string compiler;
   std::string flags;
-  std::string ceres;
   std::string qd;
 };
 
