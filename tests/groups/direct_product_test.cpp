@@ -18,9 +18,8 @@ using TwoJoints = DirectProduct<SO3<double>, DirectProduct<RealSpace<double, 1>,
 
 // With two representations of each element.
 using QuaternionBody = DirectProduct<RealSpace<double, 3>, S3<double>>;
-using ExtendedQuaternionBody = DirectProduct<RealSpace<Extended, 3>, S3<Extended>>;
 
-using ProductGroups = ::testing::Types<Body, ExtendedBody, TwoJoints, QuaternionBody, ExtendedQuaternionBody>;
+using ProductGroups = ::testing::Types<Body, ExtendedBody, TwoJoints, QuaternionBody>;
 INSTANTIATE_TYPED_TEST_SUITE_P(DirectProduct, LieGroupProperties, ProductGroups);
 
 namespace {
