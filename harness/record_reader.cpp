@@ -194,7 +194,10 @@ void read_line(std::string_view line, const std::string& place, const RecordNeed
   std::string parameters;
   if (line.find('\0') != std::string_view::npos || reader.Parse<flags>(stream, builder).IsError()) {
     record = parse_record(line, place);
-    if (!needs.shared_parameters()) parameters = record.at("parameters").dump();
+    if (!needs.shared_parameters()) {
+      parameters = record.at("parameters").dump();
+      record["parameters"] = Json::object();
+    }
   } else {
     record = builder.take();
     if (const auto [begin, end] = builder.parameters(); end > begin) {

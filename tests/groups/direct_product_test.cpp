@@ -18,8 +18,9 @@ using TwoJoints = DirectProduct<SO3<double>, DirectProduct<RealSpace<double, 1>,
 
 // With two representations of each element.
 using QuaternionBody = DirectProduct<RealSpace<double, 3>, S3<double>>;
+using ExtendedQuaternionBody = DirectProduct<RealSpace<Extended, 3>, S3<Extended>>;
 
-using ProductGroups = ::testing::Types<Body, ExtendedBody, TwoJoints, QuaternionBody>;
+using ProductGroups = ::testing::Types<Body, ExtendedBody, TwoJoints, QuaternionBody, ExtendedQuaternionBody>;
 INSTANTIATE_TYPED_TEST_SUITE_P(DirectProduct, LieGroupProperties, ProductGroups);
 
 namespace {

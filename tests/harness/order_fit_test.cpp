@@ -98,6 +98,16 @@ TEST(OrderFit, ThreePointsHaveStudentsUncertainty) {
   EXPECT_NEAR(fit.estimate->uncertainty, std::hypot(fit.estimate->fit_uncertainty, d), 0.02 * d);
 }
 
+TEST(OrderFit, OfADenseCurveThirtyTwoPointsCountItsEndsAmongThem) {
+  const double ratio = std::pow(10, 0.01);
+  const OrderFit fit = fit_order(curve(1e-2, ratio, 301, [](double h) { return 7 * h * h * h; }));
+  ASSERT_TRUE(fit.estimate.has_value()) << fit.reason;
+  EXPECT_NEAR(fit.estimate->order, 3, 1e-9);
+  EXPECT_EQ(fit.estimate->points, 32);
+  EXPECT_EQ(fit.estimate->h_max, 1e-2);
+  EXPECT_NEAR(fit.estimate->h_min, 1e-5, 1e-15);
+}
+
 struct CeresFit {
   double order, uncertainty;
 };
