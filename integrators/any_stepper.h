@@ -39,7 +39,6 @@ class AnyStepper {
   virtual std::unique_ptr<AnyStepper> clone() const = 0;
   // Becomes what `other` is, a stepper of the same type; allocates nothing.
   virtual void assign(const AnyStepper& other) = 0;
-  virtual const S& system() const = 0;
   virtual const T& time() const = 0;
   virtual const Configuration<S>& configuration() const = 0;
   virtual const Velocity<S>& velocity() const = 0;
@@ -76,7 +75,6 @@ class HeldStepper final : public AnyStepper<typename Stepper::System> {
   }
   std::unique_ptr<AnyStepper<S>> clone() const override { return std::make_unique<HeldStepper>(*this); }
   void assign(const AnyStepper<S>& other) override { *this = static_cast<const HeldStepper&>(other); }
-  const S& system() const override { return stepper_.system(); }
   const T& time() const override { return stepper_.time(); }
   const Configuration<S>& configuration() const override { return stepper_.configuration(); }
   const Velocity<S>& velocity() const override { return stepper_.velocity(); }
