@@ -3,6 +3,7 @@
 #include <qd/dd_real.h>
 #include <qd/qd_real.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -95,6 +96,11 @@ T decimal(double x) {
                   "decimal<T>: say here how a wider T reads a decimal");
     return T(x);
   }
+}
+
+template <class T>
+Eigen::Matrix<T, 3, 1> decimal_vector(const Eigen::Vector3d& v) {
+  return {decimal<T>(v(0)), decimal<T>(v(1)), decimal<T>(v(2))};
 }
 
 }  // namespace liebench

@@ -63,6 +63,11 @@ struct DirectProduct {
     s << A::stacked(q.first), B::stacked(q.second);
     return s;
   }
+  static Element unstacked(const Stacked& s) {
+    constexpr int rows = A::Stacked::RowsAtCompileTime;
+    return {A::unstacked(s.template head<rows>()),
+            B::unstacked(s.template tail<Stacked::RowsAtCompileTime - rows>())};
+  }
   template <class U>
   static typename rebind<U>::Element cast(const Element& q) {
     return {A::template cast<U>(q.first), B::template cast<U>(q.second)};

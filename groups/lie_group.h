@@ -25,6 +25,7 @@ namespace liebench {
 //                        of G (rigid motions are represented in R^3 x SO(3)).
 //   representative(r)    a q with represented(q) = r
 //   stacked(q)           the representation as one vector (rotation matrices column by column), for norms
+//   unstacked(s)         q with stacked(q) = s
 //   cast<U>(q)           the same element in the scalar U, an element of rebind<U>
 //   rotation_angle(v)    the largest rotation angle [rad] in exp(v~); 0 where nothing rotates
 //   separation(q, p)     v with p = q o exp(v~) in double, to full relative accuracy however close q and p are
@@ -55,11 +56,42 @@ concept LieGroup = Scalar<typename G::Scalar> && std::copyable<typename G::Eleme
   { G::represented(q) } -> std::same_as<typename G::Represented::Element>;
   { G::representative(G::represented(q)) } -> std::same_as<typename G::Element>;
   { G::stacked(q) } -> std::same_as<typename G::Stacked>;
+  { G::unstacked(G::stacked(q)) } -> std::same_as<typename G::Element>;
   { G::template cast<double>(q) } -> std::same_as<typename G::template rebind<double>::Element>;
   { G::rotation_angle(v) } -> std::same_as<typename G::Scalar>;
   { G::separation(q, q) } -> std::same_as<Eigen::Matrix<double, G::dimension, 1>>;
   { G::defect(q) } -> std::same_as<typename G::Scalar>;
   { G::renormalized(q) } -> std::same_as<typename G::Element>;
+};
+
+// The identity matrix and zero of the size of A.
+template <class Derived>
+auto identity_like(const Eigen::MatrixBase<Derived>& A) {
+  return Derived::PlainObject::Identity(A.rows(), A.cols()).eval();
+}
+template <class Derived>
+auto zero_like(const Eigen::MatrixBase<Derived>& A) {
+  return Derived::PlainObject::Zero(A.rows(), A.cols()).eval();
+}
+
+// A group whose size is known at run time only (the bodies of a scene): the same functions, but of an object, and size() in
+// place of the flag `dimension`, which is Eigen::Dynamic; commutative() in place of `commutative`. ad, tangent and
+// tangent_inverse may give any type of matrix that has sums, products, multiples and lpNorm. over<U>() is the same group in U.
+template <class G>
+concept SizedLieGroup = Scalar<typename G::Scalar> && std::copyable<typename G::Element> &&
+    requires(const G& group, const typename G::Element& q, const typename G::Tangent& v) {
+  requires G::dimension == Eigen::Dynamic;
+  { group.size() } -> std::convertible_to<Eigen::Index>;
+  { group.commutative() } -> std::same_as<bool>;
+  { group.identity() } -> std::same_as<typename G::Element>;
+  { group.compose(q, q) } -> std::same_as<typename G::Element>;
+  { group.inverse(q) } -> std::same_as<typename G::Element>;
+  { group.exp(v) } -> std::same_as<typename G::Element>;
+  { group.log(q) } -> std::same_as<typename G::Tangent>;
+  { group.commutator(v, v) } -> std::same_as<typename G::Tangent>;
+  { group.ad(v) } -> std::same_as<typename G::TangentMatrix>;
+  { group.tangent_times(v, v) } -> std::same_as<typename G::Tangent>;
+  { group.rotation_angle(v) } -> std::same_as<typename G::Scalar>;
 };
 
 }  // namespace liebench

@@ -38,6 +38,7 @@ struct RealSpace {
   static Element represented(const Element& q) { return q; }
   static Element representative(const Element& q) { return q; }
   static Stacked stacked(const Element& q) { return q; }
+  static Element unstacked(const Stacked& s) { return s; }
   template <class U>
   static typename RealSpace<U, n>::Element cast(const Element& q) {
     return q.template cast<U>();

@@ -53,6 +53,9 @@ struct RigidMotions : RigidMotionAlgebra<typename Rotations::Scalar> {
     s << q.first, Rotations::stacked(q.second);
     return s;
   }
+  static Element unstacked(const Stacked& s) {
+    return {s.template head<3>(), Rotations::unstacked(s.template tail<Stacked::RowsAtCompileTime - 3>())};
+  }
   template <class U>
   static auto cast(const Element& q) {
     return std::pair(q.first.template cast<U>().eval(), Rotations::template cast<U>(q.second));

@@ -45,6 +45,7 @@ struct S3 : RotationAlgebra<T> {
   static Tangent rotate_back(const Element& p, const Tangent& w) { return quaternion_rotate_back<T>(p, w); }
 
   static Stacked stacked(const Element& p) { return p; }
+  static Element unstacked(const Stacked& s) { return s; }
   template <class U>
   static typename S3<U>::Element cast(const Element& p) {
     return p.template cast<U>();

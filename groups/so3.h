@@ -48,6 +48,7 @@ struct SO3 : RotationAlgebra<T> {
   static Tangent rotate_back(const Element& R, const Tangent& w) { return R.transpose() * w; }
 
   static Stacked stacked(const Element& R) { return R.reshaped(); }
+  static Element unstacked(const Stacked& s) { return s.reshaped(3, 3); }
   template <class U>
   static typename SO3<U>::Element cast(const Element& R) {
     return R.template cast<U>();

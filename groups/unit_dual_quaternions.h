@@ -77,6 +77,7 @@ struct UnitDualQuaternions : RigidMotionAlgebra<T> {
   }
 
   static Stacked stacked(const Element& q) { return q; }
+  static Element unstacked(const Stacked& s) { return s; }
   template <class U>
   static typename UnitDualQuaternions<U>::Element cast(const Element& q) {
     return q.template cast<U>();

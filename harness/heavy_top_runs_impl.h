@@ -1,6 +1,7 @@
 #pragma once
 
 #include "harness/heavy_top_runs.h"
+#include "harness/instances/run_time_steppers.h"
 #include "harness/run_method.h"
 #include "problems/audited_system.h"
 #include "problems/heavy_top.h"

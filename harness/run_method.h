@@ -86,7 +86,7 @@ class Monitor {
     v_.end_absolute = max_norm((v - exact.v).eval());
     q_.max_absolute = std::max(q_.max_absolute, q_.end_absolute);
     v_.max_absolute = std::max(v_.max_absolute, v_.end_absolute);
-    if constexpr (S::constraints > 0) {
+    if constexpr (S::constraints != 0) {
       const auto lambda = multipliers.template cast<Extended>().eval();
       lambda_.end_absolute = max_norm((lambda - exact.lambda).eval());
       lambda_.max_absolute = std::max(lambda_.max_absolute, lambda_.end_absolute);
@@ -96,28 +96,34 @@ class Monitor {
       q_.end_relative = relative_distance(Represented::stacked(q), Represented::stacked(exact_q));
       v_.end_relative = relative_distance(v, exact.v);
     }
-    if (n % stride_ == 0 || n == steps_) observe_drift(configuration, velocity);
+    if (n % stride_ == 0 || n == steps_) observe_drift(in_scalar_of_run(exact.t), configuration, velocity);
   }
 
   void report(RunResult& result) const {
     result.q = q_;
     result.v = v_;
-    if constexpr (S::constraints > 0) result.lambda = lambda_;
+    if constexpr (S::constraints != 0) result.lambda = lambda_;
     result.drift = drift_;
   }
 
  private:
-  void observe_drift(const Configuration<S>& q, const Velocity<S>& v) {
+  static typename S::Scalar in_scalar_of_run(const Extended& t) {
+    if constexpr (std::is_same_v<typename S::Scalar, Extended>)
+      return t;
+    else
+      return typename S::Scalar(to_double(t));
+  }
+  void observe_drift(const typename S::Scalar& t, const Configuration<S>& q, const Velocity<S>& v) {
     drift_.energy = std::max(drift_.energy, std::abs(to_double(system_.energy(q, v)) - initial_energy_));
     drift_.angular_momentum =
         std::max(drift_.angular_momentum,
                  std::abs(to_double(system_.angular_momentum(q, v)) - initial_angular_momentum_));
     drift_.group = std::max(drift_.group, to_double(S::Group::defect(q)));
-    if constexpr (S::constraints > 0) {
+    if constexpr (S::constraints != 0) {
       drift_.position_constraint =
-          std::max(drift_.position_constraint.value_or(0.0), max_norm(system_.constraint(q)));
-      drift_.velocity_constraint = std::max(drift_.velocity_constraint.value_or(0.0),
-                                            max_norm((system_.constraint_gradient(q) * v).eval()));
+          std::max(drift_.position_constraint.value_or(0.0), max_norm(constraint_at(system_, t, q)));
+      drift_.velocity_constraint =
+          std::max(drift_.velocity_constraint.value_or(0.0), max_norm(constraint_rate(system_, t, q, v)));
     }
   }
 

@@ -28,8 +28,7 @@ struct ClosureDerivatives {
 
 // The matrix of a derivative.
 template <MechanicalSystem S>
-using DerivativeMatrix =
-    Eigen::Matrix<LinearScalar<typename S::Scalar>, S::Group::dimension, S::Group::dimension>;
+using DerivativeMatrix = typename S::template rebind<LinearScalar<typename S::Scalar>>::Group::TangentMatrix;
 
 // Closure of the methods whose v and v' are affine in the increment:
 //

@@ -6,10 +6,13 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "integrators/audit.h"
+#include "integrators/erased_system.h"
 #include "integrators/list.h"
 #include "integrators/outcome.h"
+#include "integrators/run_time_system.h"
 #include "integrators/self_start.h"
 #include "integrators/starting_values.h"
 #include "problems/audited_system.h"
@@ -52,8 +55,8 @@ class HeldStepper final : public AnyStepper<typename Stepper::System> {
  public:
   using S = typename Stepper::System;
   using T = typename S::Scalar;
-  // No pointer, no vector: all that a step needs is in the stepper itself.
-  static_assert(std::is_trivially_destructible_v<Stepper>);
+  // No pointer, no vector: all that a step of a system of fixed size needs is in the stepper itself.
+  static_assert(SizedLieGroup<typename S::Group> || std::is_trivially_destructible_v<Stepper>);
 
   explicit HeldStepper(const Stepper& stepper) : stepper_(stepper) {}
   int steps() const override { return stepper_.steps(); }
@@ -100,6 +103,10 @@ template <MechanicalSystem S>
 struct AuditOf<Audited<S>> {
   using type = KernelAudit;
 };
+template <class T>
+struct AuditOf<RunTimeSystem<T>> {
+  using type = KernelAudit;
+};
 
 // The stepper of a method that its options ask for.
 template <class Method, MechanicalSystem S>
@@ -121,18 +128,87 @@ struct OptionsOf<IntegratorList<Methods...>> {
 }  // namespace detail
 using MethodOptions = detail::OptionsOf<Integrators>::type;
 
-// The stepper of any method; explicitly instantiated where it is compiled once for all (harness/instances).
+// The stepper of any method; explicitly instantiated where it is compiled once for all (harness/instances). What is not in
+// double is stepped as a RunTimeSystem: one compilation of all methods serves all systems.
+template <MechanicalSystem S>
+std::unique_ptr<AnyStepper<S>> any_stepper(const MethodOptions& options, const S& system);
+
+// A stepper of a RunTimeSystem as one of the system S that it stands for.
+template <DenseSystem S>
+class RunTimeStepper final : public AnyStepper<S> {
+ public:
+  using T = typename S::Scalar;
+  using Run = RunTimeSystem<T>;
+
+  RunTimeStepper(const MethodOptions& options, const S& system)
+      : stepper_(any_stepper(options, Run(std::make_shared<ErasedSystem<S>>(system)))) {}
+  RunTimeStepper(const RunTimeStepper& other)
+      : stepper_(other.stepper_->clone()), q_(other.q_), velocity_(other.velocity_), lambda_(other.lambda_) {}
+  RunTimeStepper& operator=(const RunTimeStepper&) = delete;
+
+  int steps() const override { return stepper_->steps(); }
+  int starting_points() const override { return stepper_->starting_points(); }
+  StepResult start(const T& h, std::span<const SolutionPoint<S>> points) override {
+    std::vector<SolutionPoint<Run>> run_time;
+    for (const SolutionPoint<S>& p : points)
+      run_time.push_back({p.t, S::Group::stacked(p.q), p.v, p.acceleration, p.lambda});
+    return after(stepper_->start(h, run_time));
+  }
+  StepResult start_itself(const T& h, std::span<SolutionPoint<S>> points) override {
+    std::vector<SolutionPoint<Run>> run_time(points.size());
+    const StepResult result = stepper_->start_itself(h, run_time);
+    for (std::size_t j = 0; j < points.size() && result.outcome == Outcome::ok; ++j) {
+      const SolutionPoint<Run>& p = run_time[j];
+      points[j] = {p.t, S::Group::unstacked(p.q), p.v, p.acceleration, p.lambda};
+    }
+    return after(result);
+  }
+  StepResult step() override { return after(stepper_->step()); }
+  StepResult advance(std::uint64_t steps) override { return after(stepper_->advance(steps)); }
+  std::unique_ptr<AnyStepper<S>> clone() const override { return std::make_unique<RunTimeStepper>(*this); }
+  void assign(const AnyStepper<S>& other) override {
+    const auto& same = static_cast<const RunTimeStepper&>(other);
+    stepper_->assign(*same.stepper_);
+    take_state();
+  }
+  const T& time() const override { return stepper_->time(); }
+  const Configuration<S>& configuration() const override { return q_; }
+  const Velocity<S>& velocity() const override { return velocity_; }
+  const Multipliers<S>& multipliers() const override { return lambda_; }
+  KernelAudit audit() const override { return stepper_->audit(); }
+
+ private:
+  StepResult after(const StepResult& result) {
+    take_state();
+    return result;
+  }
+  void take_state() {
+    q_ = S::Group::unstacked(stepper_->configuration());
+    velocity_ = stepper_->velocity();
+    lambda_ = stepper_->multipliers();
+  }
+
+  std::unique_ptr<AnyStepper<Run>> stepper_;
+  Configuration<S> q_ = S::Group::identity();
+  Velocity<S> velocity_ = Velocity<S>::Constant(T(0.0));
+  Multipliers<S> lambda_ = Multipliers<S>::Constant(T(0.0));
+};
+
 template <MechanicalSystem S>
 std::unique_ptr<AnyStepper<S>> any_stepper(const MethodOptions& options, const S& system) {
-  std::unique_ptr<AnyStepper<S>> stepper;
-  [&]<class... Methods>(IntegratorList<Methods...>) {
-    const auto attempt = [&]<class Method>(IntegratorList<Method>) {
-      if (const auto* own = std::get_if<typename Method::Options>(&options))
-        stepper = held_stepper<Method, S>(*own, system);
-    };
-    (attempt(IntegratorList<Methods>{}), ...);
-  }(Integrators{});
-  return stepper;
+  if constexpr (DenseSystem<S> && !std::is_same_v<typename S::Scalar, double>) {
+    return std::make_unique<RunTimeStepper<S>>(options, system);
+  } else {
+    std::unique_ptr<AnyStepper<S>> stepper;
+    [&]<class... Methods>(IntegratorList<Methods...>) {
+      const auto attempt = [&]<class Method>(IntegratorList<Method>) {
+        if (const auto* own = std::get_if<typename Method::Options>(&options))
+          stepper = held_stepper<Method, S>(*own, system);
+      };
+      (attempt(IntegratorList<Methods>{}), ...);
+    }(Integrators{});
+    return stepper;
+  }
 }
 
 }  // namespace liebench

@@ -38,24 +38,25 @@ class BasicStepper {
  protected:
   using Kernel = NewtonKernel<S, form, Audit>;
   using Point = typename Kernel::Point;
-  static constexpr int m = Group::dimension;
   static constexpr int l = S::constraints;
   static constexpr bool stabilized = Kernel::Equation::stabilized;
 
-  explicit BasicStepper(const S& system) : newton_(system) {
-    velocity_.setConstant(T(0.0));
-    lambda_.setConstant(T(0.0));
-  }
+  explicit BasicStepper(const S& system)
+      : newton_(system),
+        q_(group_of(system).identity()),
+        velocity_(zero_velocity(system)),
+        lambda_(zero_multipliers(system)) {}
 
   // Solves the step equation and moves to its solution. `scaled_lambda` is the prediction of h lambda_{n+1}, and its
   // value afterwards; `change` the same of d = Dq_n - base, without B^T eta.
   template <class Closure>
   StepResult advance(const Closure& closure, Velocity<S>& change, Multipliers<S>& scaled_lambda,
                      Point& point) {
-    typename Kernel::Unknowns z;
-    z.template head<m>() = change;
-    if constexpr (l > 0) z.template segment<l>(m) = scaled_lambda;
-    if constexpr (stabilized) z.template tail<l>().setConstant(T(0.0));
+    using Equation = typename Kernel::Equation;
+    typename Kernel::Unknowns z = Equation::unknowns(system());
+    Equation::change(z, system()) = change;
+    if constexpr (l != 0) Equation::scaled_lambda(z, system()) = scaled_lambda;
+    if constexpr (stabilized) Equation::eta(z, system()).setConstant(T(0.0));
     const T t = t_ + h_;
     const StepResult result = newton_.solve(t, h_, q_, closure, z, point);
     if (result.outcome != Outcome::ok) return result;
@@ -63,23 +64,23 @@ class BasicStepper {
     t_ = t;
     q_ = point.q;
     velocity_ = point.values.velocity;
-    change = z.template head<m>();
-    if constexpr (l > 0) {
-      scaled_lambda = z.template segment<l>(m);
+    change = Equation::change(z, system());
+    if constexpr (l != 0) {
+      scaled_lambda = Equation::scaled_lambda(z, system());
       lambda_ = scaled_lambda / h_;
     }
     return result;
   }
 
   // False for a NaN, too.
-  static bool turns_by_less_than_pi(const Velocity<S>& v) {
-    return to_double(Group::rotation_angle(v)) < std::numbers::pi;
+  bool turns_by_less_than_pi(const Velocity<S>& v) const {
+    return to_double(group_of(system()).rotation_angle(v)) < std::numbers::pi;
   }
 
   Kernel newton_;
   T h_ = T(0.0);
   T t_ = T(0.0);
-  Configuration<S> q_ = Group::identity();
+  Configuration<S> q_;
   Velocity<S> velocity_;   // v_n
   Multipliers<S> lambda_;  // lambda_n
 };

@@ -39,13 +39,14 @@ struct BdfState {
   using T = typename S::Scalar;
   static constexpr int most_steps = BdfCoefficients<T>::most_steps;
 
-  explicit BdfState(int steps)
+  BdfState(const S& system, int steps)
       : k(steps),
         coefficients(bdf_coefficients<T>(steps)),
-        velocity_changes(steps + 1),
-        increment_changes(steps + 1) {
-    for (Velocity<S>* v : {&velocity, &increment, &kappa}) v->setConstant(T(0.0));
-  }
+        velocity(zero_velocity(system)),
+        increment(velocity),
+        kappa(velocity),
+        velocity_changes(steps + 1, velocity),
+        increment_changes(steps + 1, velocity) {}
 
   int k;
   T h = T(0.0);
@@ -60,7 +61,7 @@ struct BdfState {
 // k is a member, not a parameter of the type: one code serves all k (docs/performance.md, "Build").
 //
 // Kinematics gives
-//   Kinematics(options of the method)
+//   Kinematics(system, options of the method)
 //   start(h, motions)         the q_j^{-1} o q_{j+1}, j = 0, ..., k - 2, of the starting points
 //   defined(state)            false where the kinematic equation has no unique value (a logarithm beyond pi)
 //   closure(state, affine)    the closure of the step from t_n, of which `affine` is what holds for kappa_{n+1} = kappa_n
@@ -70,6 +71,7 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
   using Base = BasicStepper<S, form, Audit>;
 
  public:
+  using Base::system;
   using typename Base::Group;
   using typename Base::T;
   int steps() const { return state_.k; }
@@ -80,12 +82,11 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
   BdfStepper(const S& system, const Options& options)
       : Base(system),
         modified_start_(options.modified_start),
-        state_(options.k),
-        kinematics_(options),
-        scaled_lambdas_(options.k + 2) {
-    first_change_.setConstant(T(0.0));
-    stabilization_.setConstant(T(0.0));
-  }
+        state_(system, options.k),
+        kinematics_(system, options),
+        first_change_(zero_velocity(system)),
+        stabilization_(zero_velocity(system)),
+        scaled_lambdas_(options.k + 2, zero_multipliers(system)) {}
 
   // Eq. (21): q_{k-1}, increments Dq_0 ... Dq_{k-2} by k - 1 logarithms, v_0 ... v_{k-1}; and eq. (56) where asked for.
   StepResult start(const T& h, std::span<const SolutionPoint<S>> points) {
@@ -103,15 +104,16 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
     lambda_ = last.lambda;
     scaled_lambdas_.push(h_ * lambda_);
     // sum_{i=2}^k gamma_i Dq_{k-i}: what v_k takes from the starting increments.
-    Velocity<S> known = Velocity<S>::Constant(T(0.0));
+    Velocity<S> known = zero_velocity(system());
     // With one step there is no increment yet; v_0 is next to the first one.
     state_.increment = points[0].v;
     std::array<Configuration<S>, std::size_t(BdfState<S>::most_steps - 1)> motions;
-    motions.fill(Group::identity());
+    const auto group = group_of(system());
+    motions.fill(group.identity());
     for (int j = 1; j < k; ++j) {
       state_.velocity_changes.push(points[std::size_t(j)].v - points[std::size_t(j - 1)].v);
       motions[std::size_t(j - 1)] = motion_between(points, j - 1);
-      const Velocity<S> increment = Group::log(motions[std::size_t(j - 1)]) / h_;
+      const Velocity<S> increment = group.log(motions[std::size_t(j - 1)]) / h_;
       if (j > 1) state_.increment_changes.push(increment - state_.increment);
       state_.increment = increment;
       known += state_.coefficients.gamma[std::size_t(k - j)] * increment;
@@ -119,14 +121,14 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
     kinematics_.start(std::span(motions).first(std::size_t(k - 1)));
     first_change_ = state_.coefficients.gamma[0] * state_.increment + known - velocity_;
     first_ = true;
-    if constexpr (S::constraints > 0 && !Base::stabilized)
+    if constexpr (S::constraints != 0 && !Base::stabilized)
       if (modified_start_) return modify_starting_velocities(points);
     return {};
   }
 
   // t_n -> t_{n+1}
   StepResult step() {
-    if constexpr (inlines_all<T>) {
+    if constexpr (inlines_all<S>) {
       return step_inlined();
     } else {
       return take_step();
@@ -144,7 +146,7 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
     const auto closure = kinematics_.closure(state_, affine);
     Velocity<S> change = predicted_change(closure);
     Multipliers<S> scaled_lambda;
-    if constexpr (S::constraints > 0) scaled_lambda = scaled_lambdas_.extrapolated();
+    if constexpr (S::constraints != 0) scaled_lambda = scaled_lambdas_.extrapolated();
     typename Base::Point point;
     const StepResult result = Base::advance(closure, change, scaled_lambda, point);
     if (result.outcome != Outcome::ok) return result;
@@ -156,7 +158,7 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
     state_.increment_changes.push(change);
     kinematics_.accept(point.motion);
     first_ = false;
-    if constexpr (S::constraints > 0) scaled_lambdas_.push(scaled_lambda);
+    if constexpr (S::constraints != 0) scaled_lambdas_.push(scaled_lambda);
     return result;
   }
 
@@ -168,8 +170,9 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
   using Base::velocity_;
 
   // q_j^{-1} o q_{j+1}
-  static Configuration<S> motion_between(std::span<const SolutionPoint<S>> points, int j) {
-    return Group::compose(Group::inverse(points[std::size_t(j)].q), points[std::size_t(j + 1)].q);
+  Configuration<S> motion_between(std::span<const SolutionPoint<S>> points, int j) const {
+    const auto group = group_of(system());
+    return group.compose(group.inverse(points[std::size_t(j)].q), points[std::size_t(j + 1)].q);
   }
 
   // The closure for kappa_{n+1} = kappa_n.
@@ -195,13 +198,13 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
 
   // From the extrapolated change of velocity through the closure, exact to the order of the method and beyond.
   Velocity<S> predicted_change(const AffineClosure<S>& closure) const {
-    if (state_.velocity_changes.size() == 0) return Velocity<S>::Constant(T(0.0));
+    if (state_.velocity_changes.size() == 0) return zero_velocity(system());
     return (state_.velocity_changes.extrapolated() - closure.velocity_change) / closure.velocity_slope;
   }
   // Where v is no affine function of d, d itself is extrapolated.
   template <class Closure>
   Velocity<S> predicted_change(const Closure&) const {
-    if (state_.increment_changes.size() == 0) return Velocity<S>::Constant(T(0.0));
+    if (state_.increment_changes.size() == 0) return zero_velocity(system());
     return state_.increment_changes.extrapolated();
   }
 
@@ -212,13 +215,12 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
     state_.velocity = velocity_;
     if (!kinematics_.defined(state_)) return {Outcome::rotation_too_large};
     const auto closure = kinematics_.closure(state_, affine_part());
-    const Velocity<S> increment = Group::log(motion_between(points, state_.k - 1)) / h_;
+    const Velocity<S> increment = group_of(system()).log(motion_between(points, state_.k - 1)) / h_;
     const Velocity<S> exact_change = points[std::size_t(state_.k)].v - points[std::size_t(state_.k - 1)].v;
     const Velocity<S> local_error = closure.at(increment - state_.increment).velocity_change - exact_change;
     const auto& q = points[std::size_t(state_.k - 1)].q;
-    const Multipliers<S> b = newton_.system().constraint_gradient(q) * local_error;
-    const auto solution =
-        solve_saddle_point(newton_.system(), q, Velocity<S>::Constant(T(0.0)).eval(), b, newton_.audit());
+    const Multipliers<S> b = constraint_product(system(), q, local_error);
+    const auto solution = solve_saddle_point(system(), q, zero_velocity(system()), b, newton_.audit());
     if (!solution) return {Outcome::singular_matrix};
     // All v_j move by the same vector: their differences stay.
     velocity_ += solution->x;

@@ -78,8 +78,8 @@ struct BLieDF2nd {
   template <MechanicalSystem S, class Audit, class Visitor>
   static auto with_stepper(const Options& options, const S& system, Visitor&& visit) {
     return with_form<S>(options.form, [&]<Form form>(FormConstant<form>) {
-      if constexpr (!S::Group::commutative)
-        if (options.k >= 3 && options.correction == Correction::implicit_term)
+      if constexpr (may_have_commutators<S>())
+        if (has_commutators(system) && options.k >= 3 && options.correction == Correction::implicit_term)
           return visit(ImplicitStepper<S, form, Audit>(system, options));
       return visit(Stepper<S, form, Audit>(system, options));
     });

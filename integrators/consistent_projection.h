@@ -34,12 +34,13 @@ struct SaddlePointSolution {
 
 template <ConstrainedSystem S, class Audit>
 [[gnu::noinline]] std::optional<SaddlePointSolution<S>> solve_saddle_point(
-    const S& system, const Configuration<S>& q, const Velocity<S>& a, const Multipliers<S>& b, Audit& audit) {
+    const S& system, const Configuration<S>& q, const Velocity<S>& a, const Multipliers<S>& b,
+    Audit& audit) requires DenseSystem<S> {
   using T = typename S::Scalar;
+  using Linear = LinearScalar<T>;
   constexpr int m = S::Group::dimension, l = S::constraints;
   const VelocityMatrix<S> M = system.mass_matrix(q);
   const ConstraintGradient<S> B = system.constraint_gradient(q);
-  using Linear = LinearScalar<T>;
   typename DenseLu<Linear, m + l>::Matrix A;
   A.setConstant(Linear(0.0));
   A.template topLeftCorner<m, m>() = M.template cast<Linear>();
@@ -61,6 +62,39 @@ template <ConstrainedSystem S, class Audit>
   return s;
 }
 
+// A system with a solver of its own: system.saddle_point(q, a, b, audit).
+template <ConstrainedSystem S, class Audit>
+std::optional<SaddlePointSolution<S>> solve_saddle_point(const S& system, const Configuration<S>& q,
+                                                         const Velocity<S>& a, const Multipliers<S>& b,
+                                                         Audit& audit) requires
+    requires(Velocity<S>& x, Multipliers<S>& y) {
+  system.saddle_point(q, a, b, x, y, audit);
+}
+{
+  SaddlePointSolution<S> s{zero_velocity(system), zero_multipliers(system)};
+  if (!system.saddle_point(q, a, b, s.x, s.y, audit)) return std::nullopt;
+  return s;
+}
+
+// M(q) x = a, refined as above.
+template <DenseSystem S, class Audit>
+[[gnu::noinline]] std::optional<Velocity<S>> solve_mass_matrix(const S& system, const Configuration<S>& q,
+                                                               const Velocity<S>& a, Audit& audit) {
+  using T = typename S::Scalar;
+  using Linear = LinearScalar<T>;
+  DenseLu<Linear, S::Group::dimension> lu;
+  const VelocityMatrix<S> M = system.mass_matrix(q);
+  audit.factorization(FactorizationCause::start);
+  if (!lu.factorize(M.template cast<Linear>())) return std::nullopt;
+  Velocity<S> x = Velocity<S>::Constant(T(0.0));
+  for (int pass = 0; pass < refinement_passes<T>; ++pass) {
+    const Velocity<S> r = a - system.momentum(q, x);
+    x += lu.solve(r.template cast<Linear>()).template cast<T>();
+    audit.solve();
+  }
+  return x;
+}
+
 // The acceleration and the multipliers that the equations of motion give at (t, q, v): M v' = -g without constraints; with
 // them such that the second derivative of the constraint vanishes, B v' = -Z(v, v).
 template <MechanicalSystem S>
@@ -75,27 +109,16 @@ template <MechanicalSystem S, class Audit>
                                                                            const Configuration<S>& q,
                                                                            const Velocity<S>& v,
                                                                            Audit& audit) {
-  using T = typename S::Scalar;
   const Velocity<S> force = -system.force(t, q, v);
-  if constexpr (S::constraints > 0) {
-    const auto solution =
-        solve_saddle_point(system, q, force, Multipliers<S>(-system.constraint_curvature(q, v)), audit);
+  if constexpr (S::constraints != 0) {
+    const auto solution = solve_saddle_point(
+        system, q, force, Multipliers<S>(-constraint_curvature_at(system, t, q, v)), audit);
     if (!solution) return std::nullopt;
     return ConsistentDynamics<S>{solution->x, solution->y};
   } else {
-    constexpr int m = S::Group::dimension;
-    using Linear = LinearScalar<T>;
-    DenseLu<Linear, m> lu;
-    const VelocityMatrix<S> M = system.mass_matrix(q);
-    audit.factorization(FactorizationCause::start);
-    if (!lu.factorize(M.template cast<Linear>())) return std::nullopt;
-    ConsistentDynamics<S> dynamics{Velocity<S>::Constant(T(0.0)), {}};
-    for (int pass = 0; pass < refinement_passes<T>; ++pass) {
-      const Velocity<S> r = force - system.momentum(q, dynamics.acceleration);
-      dynamics.acceleration += lu.solve(r.template cast<Linear>()).template cast<T>();
-      audit.solve();
-    }
-    return dynamics;
+    const auto acceleration = solve_mass_matrix(system, q, force, audit);
+    if (!acceleration) return std::nullopt;
+    return ConsistentDynamics<S>{*acceleration, {}};
   }
 }
 
@@ -103,18 +126,22 @@ template <MechanicalSystem S, class Audit>
 //   q <- q o exp(delta~), Phi(q) = 0;   v <- v + Dv, B(q) v = 0
 // The correction of q is repeated until it no longer shrinks, which is its round-off.
 template <MechanicalSystem S, class Audit>
-StepResult project_on_constraints(const S& system, Configuration<S>& q, Velocity<S>& v, Audit& audit) {
-  if constexpr (S::constraints > 0) {
+StepResult project_on_constraints(const S& system, const typename S::Scalar& t, Configuration<S>& q,
+                                  Velocity<S>& v, Audit& audit) {
+  if constexpr (S::constraints != 0) {
     using T = typename S::Scalar;
-    const Velocity<S> zero = Velocity<S>::Constant(T(0.0));
-    const auto size = [&] { return to_double(T(Multipliers<S>(system.constraint(q)).norm())); };
+    if (multiplier_size(system) == 0) return {};
+    const auto group = group_of(system);
+    const Velocity<S> zero = zero_velocity(system);
+    const auto size = [&] { return to_double(T(constraint_at(system, t, q).norm())); };
     constexpr int most = 30;
     double previous = size();
     for (int i = 0; i < most && previous > 0.0; ++i) {
-      const auto solution = solve_saddle_point(system, q, zero, Multipliers<S>(-system.constraint(q)), audit);
+      const auto solution =
+          solve_saddle_point(system, q, zero, Multipliers<S>(-constraint_at(system, t, q)), audit);
       if (!solution) return {Outcome::singular_matrix};
       const Configuration<S> before = q;
-      q = S::Group::compose(q, S::Group::exp(solution->x));
+      q = group.compose(q, group.exp(solution->x));
       const double now = size();
       if (!std::isfinite(now)) return {Outcome::non_finite};
       if (now >= previous) {
@@ -124,7 +151,7 @@ StepResult project_on_constraints(const S& system, Configuration<S>& q, Velocity
       previous = now;
     }
     const auto solution =
-        solve_saddle_point(system, q, zero, Multipliers<S>(-(system.constraint_gradient(q) * v)), audit);
+        solve_saddle_point(system, q, zero, Multipliers<S>(-constraint_rate(system, t, q, v)), audit);
     if (!solution) return {Outcome::singular_matrix};
     v += solution->x;
   }

@@ -60,8 +60,8 @@ struct FaltinsenBdf {
 
   // Where no logarithm and no commutator enters, the method is BLieDF2nd without a correction.
   template <MechanicalSystem S>
-  static bool is_plain(const Options& options) {
-    return S::Group::commutative || options.k == 1 || (options.k == 2 && options.variant == Variant::bch);
+  static bool is_plain(const Options& options, const S& system) {
+    return !has_commutators(system) || options.k == 1 || (options.k == 2 && options.variant == Variant::bch);
   }
   template <MechanicalSystem S, Form form = Form::index3, class Audit = NoAudit>
   using PlainStepper = BdfStepper<S, form, Audit, ExplicitCorrection<S>>;
@@ -71,8 +71,8 @@ struct FaltinsenBdf {
   template <MechanicalSystem S, class Audit, class Visitor>
   static auto with_stepper(const Options& options, const S& system, Visitor&& visit) {
     return with_form<S>(options.form, [&]<Form form>(FormConstant<form>) {
-      if constexpr (!S::Group::commutative)
-        if (!is_plain<S>(options)) {
+      if constexpr (may_have_commutators<S>())
+        if (!is_plain(options, system)) {
           if (options.variant == Variant::bch)
             return visit(Stepper<S, Variant::bch, form, Audit>(system, options));
           return visit(Stepper<S, Variant::exact, form, Audit>(system, options));

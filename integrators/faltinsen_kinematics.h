@@ -37,19 +37,20 @@ struct TangentSeries {
   typename Group::TangentMatrix tangent;     // T(s)
   typename Group::TangentMatrix derivative;  // D_s (T(s) w)
 
-  TangentSeries(const typename Group::Tangent& s, const typename Group::Tangent& w, int most) {
+  TangentSeries(const Group& group, const typename Group::Tangent& s, const typename Group::Tangent& w,
+                int most) {
     using T = typename Group::Scalar;
     using Matrix = typename Group::TangentMatrix;
     using std::abs;
-    const Matrix A = Group::ad(s);
-    Matrix power = Matrix::Identity(), Y = Matrix::Zero();
+    const Matrix A = group.ad(s);
+    Matrix power = identity_like(A), Y = zero_like(A);
     typename Group::Tangent y = w;
     tangent = power;
     derivative = Y;
     T factor = 1.0;
     for (int j = 1; j <= most; ++j) {
       factor /= T(-(j + 1.0));
-      Y = (A * Y - Group::ad(y)).eval();
+      Y = (A * Y - group.ad(y)).eval();
       y = (A * y).eval();
       power = (A * power).eval();
       tangent += factor * power;
@@ -63,6 +64,7 @@ template <MechanicalSystem S, bool exact>
 struct FaltinsenClosure {
   using T = typename S::Scalar;
   using Group = typename S::Group;
+  [[no_unique_address]] Group group;
   AffineClosure<S> affine;  // for kappa_{n+1} = kappa_n
   T h;
   Velocity<S> kappa;  // kappa_n
@@ -88,12 +90,13 @@ struct FaltinsenClosure {
   // v = T(u) w: dv/dd = T(u) gamma_1 + h D_s (T(s) w) at s = u
   [[gnu::noinline]] ClosureDerivatives<DerivativeMatrix<S>> linearization(const Velocity<S>& d) const {
     using Linear = LinearScalar<T>;
-    using LinearGroup = typename S::template rebind<Linear>::Group;
+    const auto linear_group = linear_group_of<S>(group);
+    using LinearGroup = std::remove_cvref_t<decltype(linear_group)>;
     const Velocity<S> Dq = increment(d);
     const Linear slope = to_linear(affine.velocity_slope), step = to_linear(h);
     const typename LinearGroup::Tangent u = step * Dq.template cast<Linear>();
     const typename LinearGroup::Tangent w = (Dq + x_slope * d + x_known).eval().template cast<Linear>();
-    const TangentSeries<LinearGroup> series(u, w, exact ? most_terms : terms);
+    const TangentSeries<LinearGroup> series(linear_group, u, w, exact ? most_terms : terms);
     const DerivativeMatrix<S> dv = slope * series.tangent + step * series.derivative;
     return {dv, slope * dv};
   }
@@ -104,11 +107,11 @@ struct FaltinsenClosure {
   // (T(u) - I) x
   Velocity<S> bend(const Velocity<S>& u, const Velocity<S>& x) const {
     if constexpr (exact) {
-      return Group::tangent_times(u, x) - x;
+      return group.tangent_times(u, x) - x;
     } else {
-      const Velocity<S> once = Group::commutator(u, x);
+      const Velocity<S> once = group.commutator(u, x);
       if (terms == 1) return T(-0.5) * once;
-      return Group::commutator(u, once) / T(6.0) - T(0.5) * once;
+      return group.commutator(u, once) / T(6.0) - T(0.5) * once;
     }
   }
 };
@@ -121,8 +124,9 @@ class FaltinsenKinematics {
   static constexpr int most_steps = 4;
 
   template <class Options>
-  explicit FaltinsenKinematics(const Options& options) : k_(options.k) {
-    if constexpr (exact) motions_.fill(Group::identity());
+  FaltinsenKinematics(const S& system, const Options& options)
+      : group_(group_of(system)), zero_(zero_velocity(system)), k_(options.k) {
+    if constexpr (exact) motions_.fill(group_.identity());
   }
 
   void start(std::span<const Configuration<S>> motions) {
@@ -143,7 +147,7 @@ class FaltinsenKinematics {
     Velocity<S> Dq = state.increment;
     LinearScalar<T> angle = 0.0;
     for (int i = 0; i < k_ - 1; ++i) {
-      angle += to_linear(Group::rotation_angle(state.h * Dq));
+      angle += to_linear(group_.rotation_angle(state.h * Dq));
       Dq -= state.increment_changes[i];
     }
     return to_double(angle) < std::numbers::pi;
@@ -151,7 +155,8 @@ class FaltinsenKinematics {
 
   FaltinsenClosure<S, exact> closure(const BdfState<S>& state, const AffineClosure<S>& affine) const {
     const auto& gamma = state.coefficients.gamma;
-    FaltinsenClosure<S, exact> closure{.affine = affine,
+    FaltinsenClosure<S, exact> closure{.group = group_,
+                                       .affine = affine,
                                        .h = state.h,
                                        .kappa = state.kappa,
                                        .C = history_term(state),
@@ -171,7 +176,7 @@ class FaltinsenKinematics {
  private:
   // C = alpha_3 c_2 + alpha_4 c_3
   Velocity<S> history_term(const BdfState<S>& state) const {
-    if (k_ < 3) return Velocity<S>::Constant(T(0.0));
+    if (k_ < 3) return zero_;
     const auto& alpha = state.coefficients.alpha;
     const Velocity<S>& A = state.increment;
     const Velocity<S>& d1 = state.increment_changes[0];
@@ -179,24 +184,24 @@ class FaltinsenKinematics {
     if constexpr (exact) {
       const Velocity<S> B = A - d1;
       // s_{n-2} = log(exp(-h A) exp(-h B)) = -log(exp(h B) exp(h A))
-      const Configuration<S> two = Group::compose(motions_[1], motions_[0]);
-      Velocity<S> C = alpha[3] * (A + B - Group::log(two) / state.h);
+      const Configuration<S> two = group_.compose(motions_[1], motions_[0]);
+      Velocity<S> C = alpha[3] * (A + B - group_.log(two) / state.h);
       if (k_ == 4) {
         const Velocity<S> third = B - d2;
-        C += alpha[4] * (A + B + third - Group::log(Group::compose(motions_[2], two)) / state.h);
+        C += alpha[4] * (A + B + third - group_.log(group_.compose(motions_[2], two)) / state.h);
       }
       return C;
     } else {
       // s_{n-2} = -h (A + B) + 1/2 [h A, h B], [A, B] = -[A, d1]
-      const Velocity<S> c2 = (state.h / T(-2.0)) * Group::commutator(A, d1);
+      const Velocity<S> c2 = (state.h / T(-2.0)) * group_.commutator(A, d1);
       Velocity<S> C = alpha[3] * c2;
       if (k_ == 4) {
         // s_{n-3} = s - c - z/2 - [s + c, z]/12 with s = s_{n-2}, c = h Dq_{n-3}, z = [s, c] = [s + 2 c, c]
         const Velocity<S> third = A - d1 - d2;
-        const Velocity<S> z = Group::commutator(c2 - d1 - T(2.0) * d2, third);  // z / h^2
+        const Velocity<S> z = group_.commutator(c2 - d1 - T(2.0) * d2, third);  // z / h^2
         const Velocity<S> s_plus_c = c2 - A - d2;  // (s + c) / h, A + B - c = A + d2
         C += alpha[4] *
-             (c2 - (state.h / T(2.0)) * z - (state.h * state.h / T(12.0)) * Group::commutator(s_plus_c, z));
+             (c2 - (state.h / T(2.0)) * z - (state.h * state.h / T(12.0)) * group_.commutator(s_plus_c, z));
       }
       return C;
     }
@@ -205,6 +210,8 @@ class FaltinsenKinematics {
   struct Nothing {};
   using Motions =
       std::conditional_t<exact, std::array<Configuration<S>, std::size_t(most_steps - 1)>, Nothing>;
+  [[no_unique_address]] Group group_;
+  Velocity<S> zero_;
   int k_;
   [[no_unique_address]] Motions motions_{};  // q_{n-1}^{-1} o q_n, q_{n-2}^{-1} o q_{n-1}, ...
 };

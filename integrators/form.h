@@ -42,7 +42,7 @@ struct FormConstant {};
 // Calls visit(FormConstant<form>{}); a system without constraints has one form.
 template <MechanicalSystem S, class Visitor>
 auto with_form(Form form, Visitor&& visit) {
-  if constexpr (S::constraints > 0)
+  if constexpr (S::constraints != 0)
     if (form == Form::stabilized_index2) return visit(FormConstant<Form::stabilized_index2>{});
   return visit(FormConstant<Form::index3>{});
 }

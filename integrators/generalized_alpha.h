@@ -79,16 +79,20 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
   using Base = BasicStepper<S, form, Audit>;
 
  public:
+  using Base::system;
   using typename Base::Group;
   using typename Base::T;
   int steps() const { return 1; }
   int starting_points() const { return 1; }
 
   Stepper(const S& system, const Options& options)
-      : Base(system), modified_start_(options.modified_start), parameters_(decimal<T>(options.rho_inf)) {
-    acceleration_.setConstant(T(0.0));
-    a_.setConstant(T(0.0));
-  }
+      : Base(system),
+        modified_start_(options.modified_start),
+        parameters_(decimal<T>(options.rho_inf)),
+        acceleration_(zero_velocity(system)),
+        a_(acceleration_),
+        changes_(3, acceleration_),
+        scaled_lambdas_(3, zero_multipliers(system)) {}
 
   // q_0, v_0 and consistent v'_0, lambda_0; a_0 = v'_0 + (alpha_m - alpha_f) h v''_0, of second order, with h v''_0 from
   // consistent accelerations a step before and after t_0.
@@ -100,10 +104,11 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
     acceleration_ = points[0].acceleration;
     lambda_ = points[0].lambda;
     std::array<Velocity<S>, 2> around;
+    const auto group = group_of(system());
     for (const int side : {0, 1}) {
       const T s = side == 0 ? T(-h) : h;
       const Velocity<S> step = s * velocity_ + (s * s / T(2.0)) * acceleration_;
-      const auto a = consistent_dynamics(newton_.system(), T(t_ + s), Group::compose(q_, Group::exp(step)),
+      const auto a = consistent_dynamics(system(), T(t_ + s), group.compose(q_, group.exp(step)),
                                          Velocity<S>(velocity_ + s * acceleration_), newton_.audit());
       if (!a) return {Outcome::singular_matrix};
       around[std::size_t(side)] = a->acceleration;
@@ -111,13 +116,13 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
     const Velocity<S> scaled_jerk = (around[1] - around[0]) / T(2.0);  // h v''_0
     const T shift = parameters_.alpha_m - parameters_.alpha_f;
     a_ = acceleration_ + shift * scaled_jerk;
-    if constexpr (S::constraints > 0 && form == Form::index3)
+    if constexpr (S::constraints != 0 && form == Form::index3)
       if (modified_start_) return perturb_velocity(scaled_jerk, shift);
     return {};
   }
 
   StepResult step() {
-    if constexpr (inlines_all<T>) {
+    if constexpr (inlines_all<S>) {
       return step_inlined();
     } else {
       return take_step();
@@ -129,10 +134,10 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
   [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
 
   StepResult take_step() {
-    Velocity<S> change = Velocity<S>::Constant(T(0.0));
+    Velocity<S> change = zero_velocity(system());
     if (changes_.size() > 0) change = changes_.extrapolated();
     Multipliers<S> scaled_lambda;
-    if constexpr (S::constraints > 0)
+    if constexpr (S::constraints != 0)
       scaled_lambda =
           scaled_lambdas_.size() > 0 ? scaled_lambdas_.extrapolated() : Multipliers<S>(h_ * lambda_);
     typename Base::Point point;
@@ -142,7 +147,7 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
     // d = beta h (a_{n+1} - a_n)
     a_ += point.change / (parameters_.beta * h_);
     changes_.push(point.change);
-    if constexpr (S::constraints > 0) scaled_lambdas_.push(scaled_lambda);
+    if constexpr (S::constraints != 0) scaled_lambdas_.push(scaled_lambda);
     return result;
   }
 
@@ -172,10 +177,10 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
   StepResult perturb_velocity(const Velocity<S>& scaled_jerk, const T& shift) requires ConstrainedSystem<S> {
     const T factor = (T(1.0) - T(6.0) * parameters_.beta - T(3.0) * shift) / T(6.0);
     const Velocity<S> local_error =
-        factor * h_ * scaled_jerk + (h_ * h_ / T(12.0)) * Group::commutator(velocity_, acceleration_);
-    const Multipliers<S> b = newton_.system().constraint_gradient(q_) * local_error;
-    const auto solution =
-        solve_saddle_point(newton_.system(), q_, Velocity<S>::Constant(T(0.0)).eval(), b, newton_.audit());
+        factor * h_ * scaled_jerk +
+        (h_ * h_ / T(12.0)) * group_of(system()).commutator(velocity_, acceleration_);
+    const Multipliers<S> b = constraint_product(system(), q_, local_error);
+    const auto solution = solve_saddle_point(system(), q_, zero_velocity(system()), b, newton_.audit());
     if (!solution) return {Outcome::singular_matrix};
     velocity_ += solution->x;
     return {};

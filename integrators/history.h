@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 
@@ -10,9 +11,10 @@ namespace liebench {
 template <class Vector, int capacity>
 class History {
  public:
-  explicit History(int depth = capacity) : depth_(depth) {
-    for (Vector& value : values_) value.setConstant(typename Vector::Scalar(0.0));
-  }
+  explicit History(int depth = capacity) requires(Vector::SizeAtCompileTime != Eigen::Dynamic)
+      : History(depth, Vector::Constant(typename Vector::Scalar(0.0))) {}
+  // `zero` has the size of all vectors to come.
+  History(int depth, const Vector& zero) : depth_(depth) { values_.fill(zero); }
 
   void push(const Vector& value) {
     for (std::size_t i = std::size_t(depth_) - 1; i > 0; --i) values_[i] = values_[i - 1];

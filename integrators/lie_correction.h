@@ -55,22 +55,23 @@ struct CorrectionWeights {
 
 // h^2 L for k = 3, 4.
 template <class Group>
-typename Group::Tangent leading_correction(const typename Group::Scalar& h, const typename Group::Tangent& v,
+typename Group::Tangent leading_correction(const Group& group, const typename Group::Scalar& h,
+                                           const typename Group::Tangent& v,
                                            const typename Group::Tangent& a) {
-  return (h / typename Group::Scalar(12.0)) * Group::commutator(v, a);
+  return (h / typename Group::Scalar(12.0)) * group.commutator(v, a);
 }
 
 // h^2 L for k = 5, 6.
 template <class Group>
-typename Group::Tangent full_correction(const typename Group::Scalar& h, const typename Group::Tangent& v,
-                                        const typename Group::Tangent& a, const typename Group::Tangent& b,
-                                        const typename Group::Tangent& c) {
+typename Group::Tangent full_correction(const Group& group, const typename Group::Scalar& h,
+                                        const typename Group::Tangent& v, const typename Group::Tangent& a,
+                                        const typename Group::Tangent& b, const typename Group::Tangent& c) {
   using T = typename Group::Scalar;
   using Vector = typename Group::Tangent;
-  const Vector W = h * Group::commutator(v, a);
-  const Vector inner = a + (h * Group::commutator(v, b - W) - c) / T(60.0);
-  return (h / T(12.0)) * Group::commutator(v, inner) -
-         (h / T(240.0)) * Group::commutator(a, (T(4.0) / T(3.0)) * b + W);
+  const Vector W = h * group.commutator(v, a);
+  const Vector inner = a + (h * group.commutator(v, b - W) - c) / T(60.0);
+  return (h / T(12.0)) * group.commutator(v, inner) -
+         (h / T(240.0)) * group.commutator(a, (T(4.0) / T(3.0)) * b + W);
 }
 
 // kappa_{n+1} from known velocities, or none: the closure stays affine.
@@ -81,8 +82,9 @@ class ExplicitCorrection {
   using Group = typename S::Group;
 
   template <class Options>
-  explicit ExplicitCorrection(const Options& options)
-      : present_(options.k >= 3 && !Group::commutative && options.explicit_correction()),
+  ExplicitCorrection(const S& system, const Options& options)
+      : group_(group_of(system)),
+        present_(options.k >= 3 && has_commutators(system) && options.explicit_correction()),
         weights_(options.k) {}
 
   void start(std::span<const Configuration<S>>) {}
@@ -90,7 +92,7 @@ class ExplicitCorrection {
   void accept(const Configuration<S>&) {}
 
   AffineClosure<S> closure(const BdfState<S>& state, AffineClosure<S> affine) const {
-    if constexpr (!Group::commutative) {
+    if constexpr (may_have_commutators<S>()) {
       if (present_) {
         const Velocity<S> kappa_change = -correction(state) - state.kappa;
         affine.velocity_change += kappa_change;
@@ -103,10 +105,10 @@ class ExplicitCorrection {
  private:
   Velocity<S> correction(const BdfState<S>& state) const {
     const Velocity<S> a = sum(weights_.explicit_derivative[0], state);
-    if (!weights_.higher) return leading_correction<Group>(state.h, state.velocity, a);
+    if (!weights_.higher) return leading_correction(group_, state.h, state.velocity, a);
     const Velocity<S> v = state.velocity + sum(weights_.explicit_velocity, state);
-    return full_correction<Group>(state.h, v, a, sum(weights_.explicit_derivative[1], state),
-                                  sum(weights_.explicit_derivative[2], state));
+    return full_correction(group_, state.h, v, a, sum(weights_.explicit_derivative[1], state),
+                           sum(weights_.explicit_derivative[2], state));
   }
   Velocity<S> sum(const typename CorrectionWeights<T>::Weights& weights, const BdfState<S>& state) const {
     Velocity<S> s = weights[0] * state.velocity_changes[0];
@@ -115,6 +117,7 @@ class ExplicitCorrection {
     return s;
   }
 
+  [[no_unique_address]] Group group_;
   bool present_;
   CorrectionWeights<T> weights_;
 };
@@ -126,6 +129,7 @@ struct ImplicitCorrectionClosure {
   using T = typename S::Scalar;
   using Linear = LinearScalar<T>;
   using Group = typename S::Group;
+  [[no_unique_address]] Group group;
   AffineClosure<S> affine;  // for kappa_{n+1} = kappa_n
   T h;
   Velocity<S> kappa;  // kappa_n
@@ -159,14 +163,15 @@ struct ImplicitCorrectionClosure {
 
   // (I - N)^{-1} gamma_1 up to N^3, with N the derivative of -h/12 [v, a] with respect to v.
   [[gnu::noinline]] ClosureDerivatives<DerivativeMatrix<S>> linearization(const Velocity<S>& d) const {
-    using LinearGroup = typename S::template rebind<Linear>::Group;
+    const auto linear_group = linear_group_of<S>(group);
     using Matrix = DerivativeMatrix<S>;
     const ClosureValues<S> values = at(d);
     const Linear slope = to_linear(affine.velocity_slope);
     const Matrix N = to_linear(h) / Linear(12.0) *
-                     (LinearGroup::ad(derivative(0, values.velocity_change).template cast<Linear>()) -
-                      to_linear(slopes[0]) * LinearGroup::ad(values.velocity.template cast<Linear>()));
-    const Matrix dv = slope * (Matrix::Identity() + N * (Matrix::Identity() + N));
+                     (linear_group.ad(derivative(0, values.velocity_change).template cast<Linear>()) -
+                      to_linear(slopes[0]) * linear_group.ad(values.velocity.template cast<Linear>()));
+    const Matrix I = identity_like(N);
+    const Matrix dv = slope * (I + N * (I + N));
     return {dv, slope * dv};
   }
 
@@ -176,8 +181,8 @@ struct ImplicitCorrectionClosure {
   // h^2 L(v_n + change)
   Velocity<S> scaled_correction(const Velocity<S>& change) const {
     const Velocity<S> v = affine.velocity + change;
-    if (!higher) return leading_correction<Group>(h, v, derivative(0, change));
-    return full_correction<Group>(h, v, derivative(0, change), derivative(1, change), derivative(2, change));
+    if (!higher) return leading_correction(group, h, v, derivative(0, change));
+    return full_correction(group, h, v, derivative(0, change), derivative(1, change), derivative(2, change));
   }
   Velocity<S> derivative(std::size_t order, const Velocity<S>& change) const {
     return slopes[order] * change + known[order];
@@ -194,14 +199,16 @@ class ImplicitCorrection {
   using T = typename S::Scalar;
 
   template <class Options>
-  explicit ImplicitCorrection(const Options& options) : weights_(options.k) {}
+  ImplicitCorrection(const S& system, const Options& options)
+      : group_(group_of(system)), zero_(zero_velocity(system)), weights_(options.k) {}
 
   void start(std::span<const Configuration<S>>) {}
   bool defined(const BdfState<S>&) const { return true; }
   void accept(const Configuration<S>&) {}
 
   ImplicitCorrectionClosure<S> closure(const BdfState<S>& state, const AffineClosure<S>& affine) const {
-    ImplicitCorrectionClosure<S> closure{.affine = affine,
+    ImplicitCorrectionClosure<S> closure{.group = group_,
+                                         .affine = affine,
                                          .h = state.h,
                                          .kappa = state.kappa,
                                          .higher = weights_.higher,
@@ -210,7 +217,7 @@ class ImplicitCorrection {
     for (std::size_t order = 0; order < 3; ++order) {
       const auto& weights = weights_.implicit_derivative[order];
       closure.slopes[order] = weights[0];
-      closure.known[order].setConstant(T(0.0));
+      closure.known[order] = zero_;
       if (order > 0 && !weights_.higher) continue;
       for (int i = 1; i < weights_.implicit_changes; ++i)
         closure.known[order] += weights[std::size_t(i)] * state.velocity_changes[i - 1];
@@ -219,6 +226,8 @@ class ImplicitCorrection {
   }
 
  private:
+  [[no_unique_address]] typename S::Group group_;
+  Velocity<S> zero_;
   CorrectionWeights<T> weights_;
 };
 

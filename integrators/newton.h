@@ -7,10 +7,10 @@
 #include <type_traits>
 
 #include "integrators/audit.h"
-#include "integrators/dense_lu.h"
 #include "integrators/inlining.h"
 #include "integrators/outcome.h"
 #include "integrators/step_equation.h"
+#include "integrators/step_matrix.h"
 
 // The Newton kernel that solves the step equation of every method.
 //
@@ -44,7 +44,7 @@ class NewtonKernel {
   static constexpr int l = Equation::l;
   static constexpr int n = Equation::n;
 
-  explicit NewtonKernel(const S& system) : system_(system), linear_system_(system.template cast<Linear>()) {}
+  explicit NewtonKernel(const S& system) : system_(system), matrix_(system) {}
 
   const S& system() const { return system_; }
   const Audit& audit() const { return audit_; }
@@ -56,7 +56,7 @@ class NewtonKernel {
   template <class Closure>
   [[gnu::noinline]] StepResult solve(const T& t, const T& h, const Configuration<S>& q_n,
                                      const Closure& closure, Unknowns& z, Point& point) {
-    if constexpr (inlines_all<T>) {
+    if constexpr (inlines_all<S>) {
       return solve_inlined(t, h, q_n, closure, z, point);
     } else {
       return iterate(t, h, q_n, closure, z, point);
@@ -77,7 +77,7 @@ class NewtonKernel {
     bool stalled = false;  // the last increment did not shrink, with a fresh matrix
     Linear previous = 0.0;
     const Linear scale = fixed_scale(closure, q_n, to_linear(h));
-    Unknowns r;
+    Unknowns r = Equation::unknowns(system_);
     if (!factorized_ || marginal_cost_exceeds_average()) {
       const auto cause = factorized_ ? FactorizationCause::refresh : FactorizationCause::first;
       if (const Outcome formed = factorize(t, h, q_n, closure, z, z, cause); formed != Outcome::ok)
@@ -89,14 +89,14 @@ class NewtonKernel {
       Equation::evaluate(system_, h, q_n, closure, z, point);
       Equation::residual(system_, t, h, point, z, r);
       audit_.iteration();
-      const Correction d = lu_.solve(linear(r));
+      const Correction d = matrix_.solve(linear(r));
       audit_.solve();
       const Unknowns before = z;
       z -= d.template cast<T>();
       Linear largest_d;
       const Linear size = weighted_norm(d, z, scale, largest_d);
       if (!std::isfinite(to_double(size))) return failure(Outcome::non_finite, r);
-      if constexpr (!S::Group::commutative)
+      if constexpr (may_have_commutators<S>())
         if (to_double(largest_d * to_linear(h)) > farthest) return failure(Outcome::newton_diverged, r);
 
       // Below one unit a size is noise: it bounds the rate, it does not measure it.
@@ -148,17 +148,16 @@ class NewtonKernel {
   // Cost of Jacobian and factorization in units of one iteration (residual and back-substitution), measured.
   static constexpr double factorization_cost = 2.0;
 
-  using LinearSystem = typename S::template rebind<Linear>;
-  using Lu = DenseLu<Linear, n>;
-  using Correction = typename Lu::Vector;
+  using StepMatrix = typename StepMatrixOf<S, form>::type;
+  using Correction = Eigen::Matrix<Linear, n, 1>;
 
   static Correction linear(const Unknowns& r) { return r.template cast<Linear>(); }
 
   // What round-off of d is relative to, apart from d itself.
   template <class Closure>
-  static Linear fixed_scale(const Closure& closure, const Configuration<S>& q_n, const Linear& h) {
+  Linear fixed_scale(const Closure& closure, const Configuration<S>& q_n, const Linear& h) const {
     Linear scale = Linear(0.01) * closure.base().template cast<Linear>().template lpNorm<Eigen::Infinity>();
-    if constexpr (l > 0)
+    if (multiplier_size(system_) != 0)
       scale += S::Group::stacked(q_n).template cast<Linear>().template lpNorm<Eigen::Infinity>() / h;
     return scale;
   }
@@ -167,17 +166,18 @@ class NewtonKernel {
   [[gnu::always_inline]] Linear weighted_norm(const Correction& d, const Unknowns& z, Linear scale,
                                               Linear& largest_d) const {
     const Correction z_linear = linear(z);
-    largest_d = z_linear.template head<m>().template lpNorm<Eigen::Infinity>();
+    largest_d = Equation::change(z_linear, system_).template lpNorm<Eigen::Infinity>();
     scale += largest_d;
-    Linear largest = d.template head<m>().template lpNorm<Eigen::Infinity>();
+    Linear largest = Equation::change(d, system_).template lpNorm<Eigen::Infinity>();
     if constexpr (Equation::stabilized)
-      largest = std::max(largest, d.template tail<l>().template lpNorm<Eigen::Infinity>());
+      largest = std::max(largest, Equation::eta(d, system_).template lpNorm<Eigen::Infinity>());
     Linear size = relative(largest, scale);
-    if constexpr (l > 0) {
+    if (multiplier_size(system_) != 0) {
       const Linear multiplier_scale =
-          z_linear.template segment<l>(m).template lpNorm<Eigen::Infinity>() + mass_scale_ * scale;
-      size = std::max(
-          size, relative(d.template segment<l>(m).template lpNorm<Eigen::Infinity>(), multiplier_scale));
+          Equation::scaled_lambda(z_linear, system_).template lpNorm<Eigen::Infinity>() +
+          matrix_.mass_scale() * scale;
+      size = std::max(size, relative(Equation::scaled_lambda(d, system_).template lpNorm<Eigen::Infinity>(),
+                                     multiplier_scale));
     }
     return size;
   }
@@ -194,29 +194,14 @@ class NewtonKernel {
                                       FactorizationCause cause) {
     Point point;
     Equation::evaluate(system_, h, q_n, closure, at, point);
-    const auto derivatives = closure.linearization(point.change);
-    typename Lu::Matrix J;
-    if constexpr (std::is_same_v<T, Linear>) {
-      Equation::jacobian(system_, t, h, q_n, point, z, derivatives, J);
-    } else {
-      using LinearEquation = StepEquation<LinearSystem, form>;
-      typename LinearEquation::Point linear_point;
-      linear_point.step = point.step.template cast<Linear>();
-      linear_point.q = S::Group::template cast<Linear>(point.q);
-      linear_point.values.velocity = point.values.velocity.template cast<Linear>();
-      linear_point.values.scaled_acceleration = point.values.scaled_acceleration.template cast<Linear>();
-      LinearEquation::jacobian(linear_system_, to_linear(t), to_linear(h),
-                               S::Group::template cast<Linear>(q_n), linear_point, linear(z), derivatives, J);
-    }
-    mass_scale_ = J.template topLeftCorner<m, m>().template lpNorm<Eigen::Infinity>();
-    factorized_ = lu_.factorize(J);
+    const Outcome formed = matrix_.factorize(system_, t, h, q_n, closure, point, z);
+    factorized_ = formed == Outcome::ok;
     audit_.factorization(cause);
     spent_ = factorization_cost;
     steps_ = 0;
     last_ = 0;
     rate_ = 1.0;
-    if (factorized_) return Outcome::ok;
-    return J.allFinite() ? Outcome::singular_matrix : Outcome::non_finite;
+    return formed;
   }
 
   void finish(int iterations) {
@@ -235,10 +220,8 @@ class NewtonKernel {
   bool marginal_cost_exceeds_average() const { return steps_ > 0 && last_ * steps_ > spent_; }
 
   S system_;
-  LinearSystem linear_system_;
-  Lu lu_;
+  StepMatrix matrix_;
   bool factorized_ = false;
-  Linear mass_scale_ = 0.0;
   Linear rate_ = 1.0;  // contraction seen with this factorization
   double spent_ = 0.0;
   int steps_ = 0;  // steps since the factorization

@@ -50,14 +50,15 @@ StepResult runge_kutta_munthe_kaas_step(const S& system, const typename S::Scala
                                         const typename S::Scalar& h, Configuration<S>& q, Velocity<S>& v,
                                         Audit& audit) {
   using T = typename S::Scalar;
-  using Group = typename S::Group;
   using Tableau = ButcherSix;
   const auto value = [](const Tableau::Fraction& f) {
     return T(double(f.numerator)) / T(double(f.denominator));
   };
   std::array<Velocity<S>, Tableau::stages> K, F;
+  const auto group = group_of(system);
+  const Velocity<S> zero = zero_velocity(system);
   const auto sum = [&](const auto& weights, std::size_t count, const auto& slopes) {
-    Velocity<S> s = Velocity<S>::Constant(T(0.0));
+    Velocity<S> s = zero;
     for (std::size_t j = 0; j < count; ++j)
       if (weights[j].numerator != 0) s += value(weights[j]) * slopes[j];
     return Velocity<S>(h * s);
@@ -65,18 +66,18 @@ StepResult runge_kutta_munthe_kaas_step(const S& system, const typename S::Scala
   for (std::size_t i = 0; i < Tableau::stages; ++i) {
     const Velocity<S> theta = sum(Tableau::a[i], i, K);
     // Beyond pi a step makes no sense, and beyond 2 pi T^{-1} none.
-    if (!(to_double(Group::rotation_angle(theta)) < std::numbers::pi)) return {Outcome::rotation_too_large};
+    if (!(to_double(group.rotation_angle(theta)) < std::numbers::pi)) return {Outcome::rotation_too_large};
     const Velocity<S> V = v + sum(Tableau::a[i], i, F);
     const auto dynamics = consistent_dynamics(system, T(t + value(Tableau::c[i]) * h),
-                                              Group::compose(q, Group::exp(theta)), V, audit);
+                                              group.compose(q, group.exp(theta)), V, audit);
     if (!dynamics) return {Outcome::singular_matrix};
     if (!std::isfinite(to_double(T(dynamics->acceleration.norm())))) return {Outcome::non_finite};
-    K[i] = Group::tangent_inverse(theta) * V;
+    K[i] = group.tangent_inverse(theta) * V;
     F[i] = dynamics->acceleration;
   }
   const Velocity<S> theta = sum(Tableau::b, Tableau::stages, K);
-  if (!(to_double(Group::rotation_angle(theta)) < std::numbers::pi)) return {Outcome::rotation_too_large};
-  q = Group::compose(q, Group::exp(theta));
+  if (!(to_double(group.rotation_angle(theta)) < std::numbers::pi)) return {Outcome::rotation_too_large};
+  q = group.compose(q, group.exp(theta));
   v += sum(Tableau::b, Tableau::stages, F);
   return {};
 }
@@ -95,7 +96,7 @@ template <MechanicalSystem S, class Audit>
       const StepResult step = runge_kutta_munthe_kaas_step(system, T(t - h), h, q, v, audit);
       if (step.outcome != Outcome::ok) return step;
     }
-    if (const StepResult projected = project_on_constraints(system, q, v, audit);
+    if (const StepResult projected = project_on_constraints(system, t, q, v, audit);
         projected.outcome != Outcome::ok)
       return projected;
     const auto dynamics = consistent_dynamics(system, t, q, v, audit);

@@ -35,9 +35,29 @@ class StepEquation {
   using T = typename S::Scalar;
   static constexpr int m = S::Group::dimension;
   static constexpr int l = S::constraints;
-  static constexpr bool stabilized = l > 0 && form == Form::stabilized_index2;
-  static constexpr int n = m + (stabilized ? 2 * l : l);
+  static constexpr bool stabilized = l != 0 && form == Form::stabilized_index2;
+  static constexpr int n = m == run_time_size ? run_time_size : m + (stabilized ? 2 * l : l);
   using Unknowns = Eigen::Matrix<T, n, 1>;  // (d, h lambda, eta)
+
+  static Unknowns unknowns(const S& system) {
+    if constexpr (n == run_time_size)
+      return Unknowns(velocity_size(system) + (stabilized ? 2 : 1) * multiplier_size(system));
+    else
+      return {};
+  }
+  // Their parts.
+  template <class Vector>
+  static auto change(Vector& z, const S& system) {
+    return z.template head<m>(velocity_size(system));
+  }
+  template <class Vector>
+  static auto scaled_lambda(Vector& z, const S& system) {
+    return z.template segment<l>(velocity_size(system), multiplier_size(system));
+  }
+  template <class Vector>
+  static auto eta(Vector& z, const S& system) {
+    return z.template segment<l>(z.size() - multiplier_size(system), multiplier_size(system));
+  }
 
   // The new state that belongs to given unknowns.
   struct Point {
@@ -51,14 +71,14 @@ class StepEquation {
   template <class Closure>
   [[gnu::always_inline]] static void evaluate(const S& system, const T& h, const Configuration<S>& q_n,
                                               const Closure& closure, const Unknowns& z, Point& p) {
-    p.change = z.template head<m>();
+    p.change = change(z, system);
     p.step = h * closure.increment(p.change);
     if constexpr (stabilized) {
-      const Multipliers<S> eta = z.template tail<l>();
-      p.change += system.constraint_force(q_n, eta);
+      const Multipliers<S> auxiliary = eta(z, system);
+      p.change += system.constraint_force(q_n, auxiliary);
     }
-    p.motion = S::Group::exp(p.step);
-    p.q = S::Group::compose(q_n, p.motion);
+    p.motion = group_of(system).exp(p.step);
+    p.q = group_of(system).compose(q_n, p.motion);
     p.values = closure.at(p.change);
   }
 
@@ -66,31 +86,32 @@ class StepEquation {
   [[gnu::always_inline]] static void residual(const S& system, const T& t, const T& h, const Point& p,
                                               const Unknowns& z, Unknowns& r) {
     const Velocity<S>& v = p.values.velocity;
-    r.template head<m>() = system.momentum(p.q, p.values.scaled_acceleration) + h * system.force(t, p.q, v);
-    if constexpr (l > 0) {
-      const Multipliers<S> scaled_lambda = z.template segment<l>(m);
-      r.template head<m>() += system.constraint_force(p.q, scaled_lambda);
-      r.template segment<l>(m) = system.constraint(p.q) / h;
+    change(r, system) = system.momentum(p.q, p.values.scaled_acceleration) + h * system.force(t, p.q, v);
+    if constexpr (l != 0) {
+      const Multipliers<S> multipliers = scaled_lambda(z, system);
+      change(r, system) += system.constraint_force(p.q, multipliers);
+      scaled_lambda(r, system) = constraint_at(system, t, p.q) / h;
     }
-    if constexpr (stabilized) r.template tail<l>() = system.constraint_gradient(p.q) * v;
+    if constexpr (stabilized) eta(r, system) = constraint_rate(system, t, p.q, v);
   }
 
   // The Newton matrix at the point, with the derivatives of the closure there.
   template <class Matrix, class Derivative>
   static void jacobian(const S& system, const T& t, const T& h, const Configuration<S>& q_n, const Point& p,
-                       const Unknowns& z, const ClosureDerivatives<Derivative>& closure, Matrix& J) {
+                       const Unknowns& z, const ClosureDerivatives<Derivative>& closure,
+                       Matrix& J) requires DenseSystem<S> {
     const Velocity<S>& v = p.values.velocity;
     // A constant mass matrix has no part in K.
     Velocity<S> acceleration = Velocity<S>::Constant(T(0.0));
     if constexpr (!S::constant_mass) acceleration = p.values.scaled_acceleration / h;
     Multipliers<S> lambda;
-    if constexpr (l > 0) lambda = z.template segment<l>(m) / h;
+    if constexpr (l != 0) lambda = z.template segment<l>(m) / h;
     const VelocityMatrix<S> K = system.stiffness(t, p.q, v, acceleration, lambda);
     const VelocityMatrix<S> inertial = system.mass_matrix(p.q) * closure.scaled_acceleration +
                                        (h * system.damping(t, p.q, v)) * closure.velocity;
     if constexpr (n > m) J.setConstant(T(0.0));
     J.template topLeftCorner<m, m>() = inertial + (h * h) * S::Group::times_tangent(K, p.step);
-    if constexpr (l > 0) {
+    if constexpr (l != 0) {
       const ConstraintGradient<S> B = system.constraint_gradient(p.q);
       J.template block<m, l>(0, m) = B.transpose();
       J.template block<l, m>(m, 0) = S::Group::times_tangent(B, p.step);

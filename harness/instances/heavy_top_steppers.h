@@ -1,8 +1,6 @@
 #pragma once
 
-#include "groups/counted.h"
-#include "groups/extended.h"
-#include "integrators/any_stepper.h"
+#include "harness/instances/run_time_steppers.h"
 #include "problems/audited_system.h"
 #include "problems/heavy_top.h"
 
@@ -10,9 +8,6 @@
 // (library liebench_runs).
 
 namespace liebench {
-
-template <MechanicalSystem S>
-using StepperMaker = std::unique_ptr<AnyStepper<S>>(const MethodOptions&, const S&);
 
 using ExtendedSO3 = Audited<HeavyTopSO3<Extended>>;
 using ExtendedR3xSO3 = Audited<HeavyTopR3xSO3<Extended>>;

@@ -170,7 +170,7 @@ struct Projected {
 template <class S>
 Projected<S> projected(const S& system, Configuration<S> q, Velocity<S> v) {
   NoAudit audit;
-  EXPECT_EQ(project_on_constraints(system, q, v, audit).outcome, Outcome::ok);
+  EXPECT_EQ(project_on_constraints(system, 0.0, q, v, audit).outcome, Outcome::ok);
   return {q, v};
 }
 
@@ -279,7 +279,7 @@ TEST(ProjectOnConstraints, SaysThatTheMatrixIsSingularWhereAConstraintIsRedundan
   for (const double x : {1.0, 1.25}) {
     Configuration<S> q(x, 0.0);
     Velocity<S> v(0.0, 1.0);
-    EXPECT_EQ(project_on_constraints(system, q, v, audit).outcome, Outcome::singular_matrix) << x;
+    EXPECT_EQ(project_on_constraints(system, 0.0, q, v, audit).outcome, Outcome::singular_matrix) << x;
   }
 }
 

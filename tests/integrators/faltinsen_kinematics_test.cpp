@@ -22,7 +22,7 @@ double local_error(double step_size) {
   using S = HeavyTopSO3<Extended>;  // of which only the group counts here
   const Extended h(step_size);
   const KnownStep<k, S> step(h);
-  FaltinsenKinematics<S, exact> kinematics(FaltinsenBdf::Options{.k = k});
+  FaltinsenKinematics<S, exact> kinematics(step.system, FaltinsenBdf::Options{.k = k});
   std::array<Configuration<S>, std::size_t(k - 1)> motions;
   for (int i = 1; i < k; ++i)
     motions[std::size_t(k - 1 - i)] = S::Group::exp(h * step.increments[std::size_t(i)]);
@@ -52,7 +52,8 @@ template <int k, bool exact>
 void expect_linearization_is_the_derivative() {
   using S = HeavyTopSO3<double>;
   RandomNumbers random(3);
-  BdfState<S> state{k};
+  const S system{HeavyTopParameters{}};
+  BdfState<S> state{system, k};
   state.h = 0.1;
   state.velocity = 6 * random.vector<3>();
   state.increment = state.velocity + 0.1 * random.vector<3>();
@@ -68,7 +69,7 @@ void expect_linearization_is_the_derivative() {
                                 .velocity_change = 0.3 * random.vector<3>(),
                                 .acceleration_slope = slope * slope,
                                 .scaled_acceleration = 0.3 * random.vector<3>()};
-  FaltinsenKinematics<S, exact> kinematics(FaltinsenBdf::Options{.k = k});
+  FaltinsenKinematics<S, exact> kinematics(system, FaltinsenBdf::Options{.k = k});
   std::array<Configuration<S>, std::size_t(k - 1)> motions;
   Eigen::Vector3d Dq = state.increment;
   for (int i = 1; i < k; ++i) {

@@ -39,7 +39,7 @@ template <int k, class Kinematics>
 LocalErrors local_errors(Correction correction, double step_size) {
   const Extended h(step_size);
   const KnownStep<k, S> step(h);
-  const Kinematics kinematics(BLieDF2nd::Options{.k = k, .correction = correction});
+  const Kinematics kinematics(step.system, BLieDF2nd::Options{.k = k, .correction = correction});
   const Vector v = kinematics.closure(step.state, step.affine).at(step.change).velocity;
   const Vector plain = step.affine.at(step.change).velocity;
   return {h * (v - step.exact), h * (plain - step.exact), h * (Extended(2.0) * plain - v - step.exact)};
@@ -85,7 +85,7 @@ TEST(ImplicitCorrection, SolvesItsFixedPointToRoundOff) {
   const auto check = []<int k>() {
     const Extended h(0x1p-5);
     const KnownStep<k, S> step(h);
-    const ImplicitCorrection<S> kinematics(BLieDF2nd::Options{.k = k});
+    const ImplicitCorrection<S> kinematics(step.system, BLieDF2nd::Options{.k = k});
     const auto values = kinematics.closure(step.state, step.affine).at(step.change);
     const auto scaled_derivative = [&](int d) {
       const auto w = derivative_weights<Extended>(k + 1, d, 0.0);
@@ -100,10 +100,10 @@ TEST(ImplicitCorrection, SolvesItsFixedPointToRoundOff) {
     };
     Vector correction;
     if (k <= 4)
-      correction = leading_correction<S::Group>(h, values.velocity, scaled_derivative(1));
+      correction = leading_correction(S::Group{}, h, values.velocity, scaled_derivative(1));
     else
-      correction = full_correction<S::Group>(h, values.velocity, scaled_derivative(1), scaled_derivative(2),
-                                             scaled_derivative(3));
+      correction = full_correction(S::Group{}, h, values.velocity, scaled_derivative(1), scaled_derivative(2),
+                                   scaled_derivative(3));
     const Vector defect = step.affine.at(step.change).velocity - correction - values.velocity;
     EXPECT_LE(to_double(defect.norm()), 1e3 * to_double(Eigen::NumTraits<Extended>::epsilon())) << k;
     // h v' is gamma_1 (v_{n+1} - v_n) and what the earlier velocities give.
@@ -123,7 +123,8 @@ TEST(ImplicitCorrection, LinearizationIsTheDerivativeUpToWhatItLeavesOut) {
   using D = HeavyTopSO3<double>;
   const auto check = []<int k>() {
     RandomNumbers random(3);
-    BdfState<D> state{k};
+    const D system{HeavyTopParameters{}};
+    BdfState<D> state{system, k};
     state.h = 0.01;
     state.velocity = 6 * random.vector<3>();
     state.increment = state.velocity;
@@ -139,7 +140,7 @@ TEST(ImplicitCorrection, LinearizationIsTheDerivativeUpToWhatItLeavesOut) {
                                   .velocity_change = 0.3 * random.vector<3>(),
                                   .acceleration_slope = slope * slope,
                                   .scaled_acceleration = 0.3 * random.vector<3>()};
-    const ImplicitCorrection<D> kinematics(BLieDF2nd::Options{.k = k});
+    const ImplicitCorrection<D> kinematics(system, BLieDF2nd::Options{.k = k});
     const auto closure = kinematics.closure(state, affine);
     const Eigen::Vector3d d = 0.1 * random.vector<3>();
     const auto derivatives = closure.linearization(d);

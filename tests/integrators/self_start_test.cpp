@@ -174,7 +174,7 @@ TEST(SelfStart, ProjectsInitialValuesThatAreOffTheConstraint) {
   auto q = system.initial_configuration();
   auto v = system.initial_velocity();
   NoAudit audit;
-  ASSERT_EQ(project_on_constraints(system, q, v, audit).outcome, Outcome::ok);
+  ASSERT_EQ(project_on_constraints(system, 0.0, q, v, audit).outcome, Outcome::ok);
   const auto first = starting_points(system, 0.01, 1, audit)[0];
   EXPECT_EQ(first.q.first, q.first);
   EXPECT_EQ(first.q.second, q.second);

@@ -70,7 +70,8 @@ class KnownRotation {
 template <int k, MechanicalSystem S>
 struct KnownStep {
   using Vector = KnownRotation::Vector;
-  BdfState<S> state{k};
+  S system{HeavyTopParameters{}};
+  BdfState<S> state{system, k};
   AffineClosure<S> affine;
   std::vector<Vector> increments;  // Dq_n, Dq_{n-1}, ..., Dq_{n+1-k}
   Vector change;                   // Dq_n - Dq_{n-1}

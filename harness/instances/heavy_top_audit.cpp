@@ -7,6 +7,9 @@ template RunResult audit_heavy_top<HeavyTopSO3>(const RunRequest&, const HeavyTo
 template RunResult audit_heavy_top<HeavyTopS3>(const RunRequest&, const HeavyTopReference&);
 template RunResult audit_heavy_top<HeavyTopR3xSO3>(const RunRequest&, const HeavyTopReference&);
 template RunResult audit_heavy_top<HeavyTopR3xS3>(const RunRequest&, const HeavyTopReference&);
+template RunResult audit_heavy_top<HeavyTopSE3>(const RunRequest&, const HeavyTopReference&);
+template RunResult audit_heavy_top<HeavyTopS3R3>(const RunRequest&, const HeavyTopReference&);
+template RunResult audit_heavy_top<HeavyTopUDQ>(const RunRequest&, const HeavyTopReference&);
 
 template StepperMaker<CountedSO3> any_stepper;
 template StepperMaker<CountedR3xSO3> any_stepper;

@@ -7,6 +7,9 @@ template RunResult run_heavy_top<HeavyTopSO3, Extended>(const RunRequest&, const
 template RunResult run_heavy_top<HeavyTopS3, Extended>(const RunRequest&, const HeavyTopReference&);
 template RunResult run_heavy_top<HeavyTopR3xSO3, Extended>(const RunRequest&, const HeavyTopReference&);
 template RunResult run_heavy_top<HeavyTopR3xS3, Extended>(const RunRequest&, const HeavyTopReference&);
+template RunResult run_heavy_top<HeavyTopSE3, Extended>(const RunRequest&, const HeavyTopReference&);
+template RunResult run_heavy_top<HeavyTopS3R3, Extended>(const RunRequest&, const HeavyTopReference&);
+template RunResult run_heavy_top<HeavyTopUDQ, Extended>(const RunRequest&, const HeavyTopReference&);
 
 template StepperMaker<ExtendedSO3> any_stepper;
 template StepperMaker<ExtendedR3xSO3> any_stepper;

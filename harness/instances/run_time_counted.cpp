@@ -1,0 +1,7 @@
+#include "harness/instances/run_time_steppers.h"
+
+namespace liebench {
+
+template StepperMaker<RunTimeSystem<Counted>> any_stepper;
+
+}  // namespace liebench

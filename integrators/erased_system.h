@@ -1,0 +1,170 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "integrators/consistent_projection.h"
+#include "integrators/run_time_system.h"
+#include "integrators/step_matrix.h"
+
+namespace liebench {
+
+// The Newton matrix of a system of fixed size behind the interface of all.
+template <DenseSystem S, Form form>
+class ErasedStepMatrix final : public AnyStepMatrix<typename S::Scalar> {
+  using T = typename S::Scalar;
+  using Base = AnyStepMatrix<T>;
+  using Matrix = DenseStepMatrix<S, form>;
+  using Equation = typename Matrix::Equation;
+
+ public:
+  using typename Base::Derivatives;
+  using typename Base::Point;
+  using typename Base::Vector;
+
+  explicit ErasedStepMatrix(const S& system) : system_(system), matrix_(system) {}
+  Outcome factorize(const Point& p, const Derivatives& derivatives) override {
+    typename Equation::Point point;
+    point.step = p.step;
+    point.q = S::Group::unstacked(p.q);
+    point.values.velocity = p.velocity;
+    point.values.scaled_acceleration = p.scaled_acceleration;
+    typename Equation::Unknowns z = Equation::Unknowns::Constant(T(0.0));
+    Equation::scaled_lambda(z, system_) = p.scaled_lambda;
+    const auto q_n = S::Group::unstacked(p.q_n);
+    if (const auto* scalar = std::get_if<ClosureDerivatives<T>>(&derivatives))
+      return matrix_.factorize_at(system_, p.t, p.h, q_n, *scalar, point, z);
+    const auto& blocks = std::get<ClosureDerivatives<BlockDiagonal<T>>>(derivatives);
+    const ClosureDerivatives<VelocityMatrix<S>> matrices{blocks.velocity.blocks().front(),
+                                                         blocks.scaled_acceleration.blocks().front()};
+    return matrix_.factorize_at(system_, p.t, p.h, q_n, matrices, point, z);
+  }
+  Vector solve(const Vector& r) const override { return matrix_.solve(r); }
+  T mass_scale() const override { return matrix_.mass_scale(); }
+  std::unique_ptr<Base> clone() const override { return std::make_unique<ErasedStepMatrix>(*this); }
+
+ private:
+  S system_;
+  Matrix matrix_;
+};
+
+// A system of fixed size as a RunTimeSystem.
+template <DenseSystem S>
+class ErasedSystem final : public AnySystem<typename S::Scalar> {
+  using T = typename S::Scalar;
+  using Group = typename S::Group;
+  using Base = AnySystem<T>;
+  using typename Base::Linear;
+  using LinearSystem = typename S::template rebind<Linear>;
+
+ public:
+  using typename Base::Vector;
+
+  explicit ErasedSystem(const S& system) : system_(system) {
+    if constexpr (!std::is_same_v<T, Linear>)
+      linear_ = std::make_unique<ErasedSystem<LinearSystem>>(system.template cast<Linear>());
+  }
+
+  Eigen::Index velocities() const override { return Group::dimension; }
+  Eigen::Index multipliers() const override { return S::constraints; }
+
+  bool commutative() const override { return Group::commutative; }
+  Vector identity() const override { return stacked(Group::identity()); }
+  Vector compose(const Vector& p, const Vector& q) const override {
+    return stacked(Group::compose(element(p), element(q)));
+  }
+  Vector inverse(const Vector& q) const override { return stacked(Group::inverse(element(q))); }
+  Vector exp(const Vector& v) const override { return stacked(Group::exp(v)); }
+  Vector log(const Vector& q) const override { return Group::log(element(q)); }
+  Vector commutator(const Vector& v, const Vector& w) const override { return Group::commutator(v, w); }
+  BlockDiagonal<T> ad(const Vector& v) const override { return BlockDiagonal<T>({Group::ad(v)}); }
+  BlockDiagonal<T> tangent_inverse(const Vector& v) const override {
+    return BlockDiagonal<T>({Group::tangent_inverse(v)});
+  }
+  Vector tangent_times(const Vector& v, const Vector& w) const override { return Group::tangent_times(v, w); }
+  T rotation_angle(const Vector& v) const override { return Group::rotation_angle(v); }
+
+  Vector momentum(const Vector& q, const Vector& w) const override { return system_.momentum(element(q), w); }
+  Vector force(const T& t, const Vector& q, const Vector& v) const override {
+    return system_.force(t, element(q), v);
+  }
+  T energy(const Vector& q, const Vector& v) const override { return system_.energy(element(q), v); }
+  T angular_momentum(const Vector& q, const Vector& v) const override {
+    return system_.angular_momentum(element(q), v);
+  }
+  Vector initial_configuration() const override { return stacked(system_.initial_configuration()); }
+  Vector initial_velocity() const override { return system_.initial_velocity(); }
+
+  Vector constraint(const T& t, const Vector& q) const override {
+    if constexpr (S::constraints == 0)
+      return {};
+    else
+      return constraint_at(system_, t, element(q));
+  }
+  Vector constraint_force(const Vector& q, const Vector& lambda) const override {
+    if constexpr (S::constraints == 0)
+      return Vector::Constant(Group::dimension, T(0.0));
+    else
+      return system_.constraint_force(element(q), lambda);
+  }
+  Vector constraint_product(const Vector& q, const Vector& w) const override {
+    if constexpr (S::constraints == 0)
+      return {};
+    else
+      return liebench::constraint_product(system_, element(q), Velocity<S>(w));
+  }
+  Vector constraint_rate(const T& t, const Vector& q, const Vector& v) const override {
+    if constexpr (S::constraints == 0)
+      return {};
+    else
+      return liebench::constraint_rate(system_, t, element(q), Velocity<S>(v));
+  }
+  Vector constraint_curvature(const T& t, const Vector& q, const Vector& v) const override {
+    if constexpr (S::constraints == 0)
+      return {};
+    else
+      return constraint_curvature_at(system_, t, element(q), Velocity<S>(v));
+  }
+  bool saddle_point(const Vector& q, const Vector& a, const Vector& b, Vector& x, Vector& y,
+                    KernelAudit& audit) const override {
+    if constexpr (S::constraints == 0) {
+      const auto solution = solve_mass_matrix(system_, element(q), Velocity<S>(a), audit);
+      if (solution) x = *solution;
+      return solution.has_value();
+    } else {
+      const auto solution = solve_saddle_point(system_, element(q), Velocity<S>(a), Multipliers<S>(b), audit);
+      if (!solution) return false;
+      x = solution->x;
+      y = solution->y;
+      return true;
+    }
+  }
+
+  const AnySystem<Linear>& linear() const override {
+    if constexpr (std::is_same_v<T, Linear>)
+      return *this;
+    else
+      return *linear_;
+  }
+  std::unique_ptr<AnyStepMatrix<T>> step_matrix(Form form) const override {
+    if constexpr (!std::is_same_v<T, Linear>)
+      return nullptr;  // asked of linear() only
+    else
+      return with_form<S>(form, [&]<Form f>(FormConstant<f>) -> std::unique_ptr<AnyStepMatrix<T>> {
+        return std::make_unique<ErasedStepMatrix<S, f>>(system_);
+      });
+  }
+
+ private:
+  static Vector stacked(const typename Group::Element& q) { return Group::stacked(q); }
+  static typename Group::Element element(const Vector& q) { return Group::unstacked(q); }
+
+  S system_;
+  std::unique_ptr<ErasedSystem<LinearSystem>> linear_;
+};
+
+}  // namespace liebench
