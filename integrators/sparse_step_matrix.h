@@ -1,0 +1,246 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <type_traits>
+
+#include "groups/block_diagonal.h"
+#include "integrators/affine_closure.h"
+#include "integrators/audit.h"
+#include "integrators/consistent_projection.h"
+#include "integrators/outcome.h"
+#include "integrators/patterned_matrix.h"
+#include "integrators/step_equation.h"
+#include "integrators/step_matrix.h"
+#include "problems/system.h"
+
+// Newton and saddle point matrices of systems of many bodies, put together from their blocks.
+
+namespace liebench {
+
+// A system that gives the blocks of its matrices, one body and constraint after the other: see SceneSystem.
+template <class S>
+concept BlockSystem = MechanicalSystem<S> && SizedLieGroup<typename S::Group> && requires(const S& s) {
+  s.model().bodies;
+  s.multipliers();
+};
+
+// The matrix of StepEquation for such a system, with its unknowns (d, h lambda). In the stabilized form the change
+// c = d + B_n^T eta is an unknown of its own, (d, h lambda, eta, c), so that no product of blocks fills the matrix:
+//
+//   [ h^2 K T          B^T     0        M*      ]    M* = h M dv'/dd + h C dv/dd
+//   [ B T              0       0        0       ]
+//   [ h Z T            0       0        B dv/dd ]
+//   [ -I               0      -B_n^T    I       ]
+template <BlockSystem S, Form form>
+class SparseStepMatrix {
+ public:
+  using T = typename S::Scalar;
+  using Linear = T;
+  using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+  using Correction = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+  using Scalars = ClosureDerivatives<T>;
+  using Blocks = ClosureDerivatives<BlockDiagonal<T>>;
+  static constexpr bool stabilized = form == Form::stabilized_index2;
+  static_assert(std::same_as<T, LinearScalar<T>>);
+
+  explicit SparseStepMatrix(const S& system)
+      : m_(velocity_size(system)),
+        l_(multiplier_size(system)),
+        matrix_(stabilized && l_ > 0 ? 2 * (m_ + l_) : m_ + l_),
+        extended_(matrix_.size()) {}
+
+  template <class Closure, class Point, class Unknowns>
+  Outcome factorize(const S& system, const T& t, const T& h, const Configuration<S>& q_n,
+                    const Closure& closure, const Point& point, const Unknowns& z) {
+    const Multipliers<S> lambda = z.segment(m_, l_) / h;
+    return factorize_at(system, t, h, q_n, point.step, point.q, point.values.velocity, lambda,
+                        closure.linearization(point.change));
+  }
+
+  template <class Derivatives>
+  Outcome factorize_at(const S& system, const T& t, const T& h, const Configuration<S>& q_n,
+                       const Velocity<S>& step, const Configuration<S>& q, const Velocity<S>& v,
+                       const Multipliers<S>& lambda, const Derivatives& derivatives) {
+    const auto& bodies = system.model().bodies;
+    const BlockDiagonal<T> tangents = system.group().tangent(step);
+    matrix_.begin();
+    mass_scale_ = T(0.0);
+    const bool own_change = stabilized && l_ > 0;
+    const Eigen::Index change = own_change ? m_ + 2 * l_ : 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const auto inertial = times(bodies[i].mass_matrix(), derivatives.scaled_acceleration, int(i));
+      const T largest = inertial.template lpNorm<Eigen::Infinity>();
+      if (mass_scale_ < largest) mass_scale_ = largest;
+      add(bodies[i].v, change + bodies[i].v, inertial);
+    }
+    Sink<Derivatives> sink{*this, bodies, tangents, derivatives, h, change};
+    system.linearize(t, q, v, lambda, sink);
+    if (own_change) {
+      GradientSink old{*this, bodies, change};
+      system.gradient(q_n, old);
+      for (Eigen::Index i = 0; i < m_; ++i) {
+        matrix_.add(change + i, i, T(-1.0));
+        matrix_.add(change + i, change + i, T(1.0));
+      }
+    }
+    if (matrix_.factorize()) return Outcome::ok;
+    return matrix_.finite() ? Outcome::singular_matrix : Outcome::non_finite;
+  }
+
+  Correction solve(const Correction& r) const {
+    extended_.head(r.size()) = r;
+    extended_.tail(extended_.size() - r.size()).setConstant(T(0.0));
+    matrix_.solve(extended_);
+    return extended_.head(r.size());
+  }
+  const T& mass_scale() const { return mass_scale_; }
+
+ private:
+  using Bodies = std::remove_cvref_t<decltype(std::declval<S>().model().bodies)>;
+
+  template <class Block>
+  static Block times(const Block& A, const T& factor, int) {
+    return factor * A;
+  }
+  template <class Block>
+  static Block times(const Block& A, const BlockDiagonal<T>& D, int body) {
+    return A * D.blocks()[std::size_t(body)];
+  }
+  template <class Block>
+  void add(Eigen::Index row, Eigen::Index column, const Block& block) {
+    for (Eigen::Index j = 0; j < block.cols(); ++j)
+      for (Eigen::Index i = 0; i < block.rows(); ++i) matrix_.add(row + i, column + j, block(i, j));
+  }
+
+  template <class Derivatives>
+  struct Sink {
+    static constexpr bool wants_rate_gradient = stabilized;
+    SparseStepMatrix& to;
+    const Bodies& bodies;
+    const BlockDiagonal<T>& tangents;
+    const Derivatives& derivatives;
+    const T& h;
+    Eigen::Index change;  // the first column of c
+
+    template <class Block>
+    void stiffness(int i, int j, const Block& K) {
+      to.add(bodies[std::size_t(i)].v, bodies[std::size_t(j)].v,
+             Block((h * h) * (K * tangents.blocks()[std::size_t(j)])));
+    }
+    template <class Block>
+    void damping(int i, int j, const Block& C) {
+      to.add(bodies[std::size_t(i)].v, change + bodies[std::size_t(j)].v,
+             times(Block(h * C), derivatives.velocity, j));
+    }
+    template <class Block>
+    void gradient(Eigen::Index row, int j, const Block& B) {
+      const Eigen::Index v = bodies[std::size_t(j)].v, m = to.m_;
+      to.add(v, m + row, Block(B.transpose()));
+      to.add(m + row, v, Block(B * tangents.blocks()[std::size_t(j)]));
+      if constexpr (stabilized) to.add(m + to.l_ + row, change + v, times(B, derivatives.velocity, j));
+    }
+    template <class Block>
+    void rate_gradient(Eigen::Index row, int j, const Block& Z) {
+      to.add(to.m_ + to.l_ + row, bodies[std::size_t(j)].v,
+             Block(h * (Z * tangents.blocks()[std::size_t(j)])));
+    }
+  };
+  struct GradientSink {
+    SparseStepMatrix& to;
+    const Bodies& bodies;
+    Eigen::Index change;
+    template <class Block>
+    void gradient(Eigen::Index row, int j, const Block& B) {
+      to.add(change + bodies[std::size_t(j)].v, to.m_ + to.l_ + row, Block(-B.transpose()));
+    }
+  };
+
+  Eigen::Index m_, l_;
+  PatternedMatrix<T> matrix_;
+  mutable Vector extended_;  // a right side with the rows of c
+  T mass_scale_ = T(0.0);
+};
+
+template <BlockSystem S, Form form>
+struct StepMatrixOf<S, form> {
+  using type = SparseStepMatrix<S, form>;
+};
+
+// The saddle point matrix [M B^T; B 0] of such a system at q, in the scalar of the linear algebra.
+template <BlockSystem S>
+class SparseSaddlePoint {
+ public:
+  using T = typename S::Scalar;
+  using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+
+  explicit SparseSaddlePoint(const S& system, const Configuration<S>& q)
+      : m_(velocity_size(system)), matrix_(m_ + multiplier_size(system)) {
+    matrix_.begin();
+    for (const auto& body : system.model().bodies) add(body.v, body.v, body.mass_matrix());
+    Sink sink{*this, system};
+    system.gradient(q, sink);
+    regular_ = matrix_.factorize();
+  }
+  bool regular() const { return regular_; }
+  void solve(Vector& r) const { matrix_.solve(r); }
+
+ private:
+  struct Sink {
+    SparseSaddlePoint& to;
+    const S& system;
+    template <class Block>
+    void gradient(Eigen::Index row, int j, const Block& B) {
+      const Eigen::Index v = system.model().bodies[std::size_t(j)].v;
+      to.add(v, to.m_ + row, Block(B.transpose()));
+      to.add(to.m_ + row, v, B);
+    }
+  };
+  template <class Block>
+  void add(Eigen::Index row, Eigen::Index column, const Block& block) {
+    for (Eigen::Index j = 0; j < block.cols(); ++j)
+      for (Eigen::Index i = 0; i < block.rows(); ++i) matrix_.add(row + i, column + j, block(i, j));
+  }
+  Eigen::Index m_;
+  PatternedMatrix<T> matrix_;
+  bool regular_ = false;
+};
+
+// Solved in the scalar of the linear algebra, of which `linear` is the system, and refined in that of the system.
+template <BlockSystem S, BlockSystem LinearSystem, class Audit>
+bool solve_sparse_saddle_point(const S& system, const LinearSystem& linear, const Configuration<S>& q,
+                               const Velocity<S>& a, const Multipliers<S>& b, Velocity<S>& x,
+                               Multipliers<S>& y, Audit& audit) {
+  using T = typename S::Scalar;
+  using L = typename LinearSystem::Scalar;
+  const Eigen::Index m = velocity_size(system), l = multiplier_size(system);
+  const Configuration<LinearSystem> q_linear = q.template cast<L>();
+  const SparseSaddlePoint<LinearSystem> matrix(linear, q_linear);
+  audit.factorization(FactorizationCause::start);
+  if (!matrix.regular()) return false;
+  x = zero_velocity(system);
+  y = zero_multipliers(system);
+  typename SparseSaddlePoint<LinearSystem>::Vector r(m + l);
+  for (int pass = 0; pass < refinement_passes<T>; ++pass) {
+    r.head(m) = (a - system.momentum(q, x) - system.constraint_force(q, y)).template cast<L>();
+    if (l > 0) r.tail(l) = (b - system.constraint_product(q, x)).template cast<L>();
+    matrix.solve(r);
+    audit.solve();
+    x += r.head(m).template cast<T>();
+    if (l > 0) y += r.tail(l).template cast<T>();
+  }
+  return true;
+}
+
+template <BlockSystem S, class Audit>
+std::optional<SaddlePointSolution<S>> solve_saddle_point(const S& system, const Configuration<S>& q,
+                                                         const Velocity<S>& a, const Multipliers<S>& b,
+                                                         Audit& audit) {
+  SaddlePointSolution<S> s{zero_velocity(system), zero_multipliers(system)};
+  if (!solve_sparse_saddle_point(system, system, q, a, b, s.x, s.y, audit)) return std::nullopt;
+  return s;
+}
+
+}  // namespace liebench

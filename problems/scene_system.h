@@ -1,0 +1,397 @@
+#pragma once
+
+#include <ceres/jet.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "problems/effects/list.h"
+#include "problems/scene_constraints.h"
+#include "problems/scene_group.h"
+#include "problems/system.h"
+
+// A scene as a mechanical system: bodies, constraints and effects, and nothing that it does not name. Its size is known at run
+// time; with a bound on the number of bodies its vectors need no heap.
+
+namespace liebench {
+
+template <class Constraint>
+struct PlacedConstraint {
+  Constraint constraint;
+  int a, b;  // bodies, -1 for the ground
+  // The places of its rows among the multipliers; -1 for one that other constraints imply, which is left out.
+  std::array<Eigen::Index, std::size_t(Constraint::rows)> row;
+
+  template <class Value, class Vectors>
+  void scatter(const Value& value, Vectors& all) const {
+    for (int r = 0; r < Constraint::rows; ++r)
+      if (row[std::size_t(r)] >= 0) all(row[std::size_t(r)]) = value(r);
+  }
+  template <class T, class Vectors>
+  Eigen::Matrix<T, Constraint::rows, 1> gathered(const Vectors& all) const {
+    Eigen::Matrix<T, Constraint::rows, 1> own;
+    for (int r = 0; r < Constraint::rows; ++r)
+      own(r) = row[std::size_t(r)] >= 0 ? T(all(row[std::size_t(r)])) : T(0.0);
+    return own;
+  }
+};
+
+template <class T>
+struct SceneModel {
+  using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+  std::vector<Body<T>> bodies;
+  std::tuple<std::vector<PlacedConstraint<Coincidence<T>>>, std::vector<PlacedConstraint<Perpendicular<T>>>,
+             std::vector<PlacedConstraint<InPlane<T>>>, std::vector<PlacedConstraint<Distance<T>>>,
+             std::vector<PlacedConstraint<PrescribedAngle<T>>>>
+      constraints;
+  SceneEffects<T> effects;
+  Eigen::Index rows = 0;                                       // of all constraints
+  Vector q, v;                                                 // initial values
+  Eigen::Matrix<T, 3, 1> vertical = {T(0.0), T(0.0), T(1.0)};  // for the angular momentum
+};
+
+template <class T, int most_bodies = Eigen::Dynamic>
+class SceneSystem {
+ public:
+  using Scalar = T;
+  using Group = SceneGroup<T, most_bodies>;
+  using Element = typename Group::Element;
+  using Tangent = typename Group::Tangent;
+  static constexpr int constraints = Eigen::Dynamic;
+  static constexpr int most_constraints = Group::most;
+  using Multipliers = Eigen::Matrix<T, Eigen::Dynamic, 1, 0, most_constraints, 1>;
+  using Linear = LinearScalar<T>;
+  template <class U>
+  using rebind = SceneSystem<U, most_bodies>;
+  using State = RigidState<T>;
+  using Block6 = Eigen::Matrix<Linear, 6, 6>;
+
+  explicit SceneSystem(std::shared_ptr<const SceneModel<T>> model) : model_(std::move(model)) {}
+  const SceneModel<T>& model() const { return *model_; }
+
+  Group group() const { return Group(model_->bodies); }
+  Eigen::Index multipliers() const { return model_->rows; }
+  Element initial_configuration() const { return model_->q; }
+  Tangent initial_velocity() const { return model_->v; }
+
+  Tangent momentum(const Element&, const Tangent& w) const {
+    Tangent p(w.size());
+    for (const Body<T>& body : model_->bodies) body.add_momentum(w, p);
+    return p;
+  }
+  Tangent force(const T& t, const Element& q, const Tangent& v) const {
+    Tangent g = Tangent::Constant(v.size(), T(0.0));
+    Tangent applied = g;
+    each_effect([&](const auto& placed) {
+      const auto& effect = placed.effect;
+      Pair<T> pair = states(placed.a, placed.b, q, &v);
+      effect.template add_wrenches<T>(t, pair.a, pair.b, pair.on_a, pair.on_b);
+      add(placed.a, pair.a, pair.on_a, applied);
+      if constexpr (std::remove_cvref_t<decltype(effect)>::two_bodies)
+        add(placed.b, pair.b, pair.on_b, applied);
+    });
+    for (const Body<T>& body : model_->bodies)
+      if (body.has_inertial_forces()) body.add_inertial(v, g);
+    return g - applied;
+  }
+  T energy(const Element& q, const Tangent& v) const {
+    T sum = T(0.5) * v.dot(momentum(q, v));
+    each_effect([&](const auto& placed) {
+      if constexpr (requires { placed.effect.template energy<T>(State{}, State{}); }) {
+        const Pair<T> pair = states(placed.a, placed.b, q, nullptr);
+        sum += placed.effect.template energy<T>(pair.a, pair.b);
+      }
+    });
+    return sum;
+  }
+  // About the origin.
+  T angular_momentum(const Element& q, const Tangent& v) const {
+    Eigen::Matrix<T, 3, 1> sum = Eigen::Matrix<T, 3, 1>::Constant(T(0.0));
+    for (const Body<T>& body : model_->bodies) {
+      const State s = state(body, q, &v);
+      sum += body.mass * s.x.cross(s.u);
+      if (body.rotates()) sum += s.R * (body.inertia * s.omega);
+    }
+    return model_->vertical.dot(sum);
+  }
+
+  Multipliers constraint(const T& t, const Element& q) const {
+    Multipliers phi(multipliers());
+    each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
+      const Pair<T> pair = states(c.a, c.b, q, nullptr);
+      c.scatter(c.constraint.template residual<T>(t, pair.a, pair.b), phi);
+    });
+    return phi;
+  }
+  Multipliers constraint_rate(const T& t, const Element& q, const Tangent& v) const {
+    return rate(t, q, v, true);
+  }
+  Multipliers constraint_product(const Element& q, const Tangent& w) const {
+    return rate(T(0.0), q, w, false);
+  }
+  Multipliers constraint_curvature(const T& t, const Element& q, const Tangent& v) const {
+    Multipliers z(multipliers());
+    each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
+      const Pair<T> pair = states(c.a, c.b, q, &v);
+      c.scatter(c.constraint.template curvature<T>(t, pair.a, pair.b), z);
+    });
+    return z;
+  }
+  Tangent constraint_force(const Element& q, const Multipliers& lambda) const {
+    Tangent forces = Tangent::Constant(group().size(), T(0.0));
+    each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
+      Pair<T> pair = states(c.a, c.b, q, nullptr);
+      c.constraint.template add_wrenches<T>(pair.a, pair.b, c.template gathered<T>(lambda), pair.on_a,
+                                            pair.on_b);
+      add(c.a, pair.a, pair.on_a, forces);
+      add(c.b, pair.b, pair.on_b, forces);
+    });
+    return forces;
+  }
+
+  // The pieces of Newton and saddle point matrices, each with the place where it belongs:
+  //
+  //   sink.stiffness(i, j, K_ij)   D_{q_j} of (g + B^T lambda)_i
+  //   sink.damping(i, j, C_ij)     D_{v_j} of g_i
+  //   sink.gradient(row, j, B_j)   a row of the constraint gradient
+  //   sink.rate_gradient(row, j, Z_j)   the same row of D_{q_j} of (B v) at fixed v, where the sink asks for it
+  //
+  // i, j are bodies. The same pieces in the same order at every point.
+  template <class Sink>
+  void linearize(const T& t, const Element& q, const Tangent& v, const Multipliers& lambda,
+                 Sink& sink) const {
+    each_effect([&]<class E>(const Placed<E>& placed) {
+      if constexpr (E::two_bodies)
+        effect_pieces<24>(placed, t, q, v, sink);
+      else
+        effect_pieces<12>(placed, t, q, v, sink);
+    });
+    for (std::size_t i = 0; i < model_->bodies.size(); ++i) {
+      const Body<T>& body = model_->bodies[i];
+      if (body.has_inertial_forces()) sink.damping(int(i), int(i), body.inertial_damping(v));
+    }
+    each_constraint(
+        [&]<class C>(const PlacedConstraint<C>& c) { constraint_pieces(c, t, q, v, lambda, sink); });
+  }
+  // The constraint gradient alone.
+  template <class Sink>
+  void gradient(const Element& q, Sink& sink) const {
+    const Tangent zero = Tangent::Constant(group().size(), T(0.0));
+    each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
+      const Pair<T> pair = states(c.a, c.b, q, nullptr);
+      gradient_pieces(c, pair, sink);
+    });
+  }
+
+ private:
+  template <class U>
+  struct Pair {
+    RigidState<U> a, b;
+    Wrench<U> on_a = Wrench<U>::zero(), on_b = Wrench<U>::zero();
+  };
+  template <class U>
+  using Block = Eigen::Matrix<U, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
+  template <class Visitor>
+  void each_effect(const Visitor& visit) const {
+    std::apply([&](const auto&... lists) { (visit_all(lists, visit), ...); }, model_->effects);
+  }
+  template <class Visitor>
+  void each_constraint(const Visitor& visit) const {
+    std::apply([&](const auto&... lists) { (visit_all(lists, visit), ...); }, model_->constraints);
+  }
+  template <class List, class Visitor>
+  static void visit_all(const List& list, const Visitor& visit) {
+    for (const auto& placed : list) visit(placed);
+  }
+
+  static State state(const Body<T>& body, const Element& q, const Tangent* v) {
+    State s;
+    body.read_pose(q, s);
+    if (v != nullptr) body.read_velocity(*v, s);
+    return s;
+  }
+  State state(int body, const Element& q, const Tangent* v) const {
+    return body < 0 ? State::ground() : state(model_->bodies[std::size_t(body)], q, v);
+  }
+  Pair<T> states(int a, int b, const Element& q, const Tangent* v) const {
+    return {state(a, q, v), state(b, q, v)};
+  }
+  void add(int body, const State& s, const Wrench<T>& wrench, Tangent& forces) const {
+    if (body >= 0) model_->bodies[std::size_t(body)].add(s, wrench, forces);
+  }
+  Multipliers rate(const T& t, const Element& q, const Tangent& v, bool moving) const {
+    Multipliers r(multipliers());
+    each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
+      const Pair<T> pair = states(c.a, c.b, q, &v);
+      c.scatter(c.constraint.template rate<T>(t, pair.a, pair.b, moving), r);
+    });
+    return r;
+  }
+
+  // States as functions of (delta x, delta theta) of a and b and, where n = 24 or a one-body effect has n = 12, of their
+  // velocities (x', Omega): Jets with that order of the derivatives.
+  template <class Jet>
+  static RigidState<Jet> with_pose_jets(const State& s, int first) {
+    RigidState<Jet> jets{s.x.template cast<Jet>(), s.R.template cast<Jet>(), s.u.template cast<Jet>(),
+                         s.omega.template cast<Jet>()};
+    Eigen::Matrix<Jet, 3, 3> turn = Eigen::Matrix<Jet, 3, 3>::Identity();
+    for (int i = 0; i < 3; ++i) {
+      jets.x(i).v(first + i) = T(1.0);
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      turn(k, j).v(first + 3 + i) = T(1.0);
+      turn(j, k).v(first + 3 + i) = T(-1.0);
+    }
+    jets.R = (jets.R * turn).eval();
+    return jets;
+  }
+  template <class Jet>
+  static void add_velocity_jets(RigidState<Jet>& jets, int first) {
+    for (int i = 0; i < 3; ++i) {
+      jets.u(i).v(first + i) = T(1.0);
+      jets.omega(i).v(first + 3 + i) = T(1.0);
+    }
+  }
+  // Rows of the derivatives of a wrench.
+  template <class Jet>
+  static Eigen::Matrix<T, 6, 6> derivative(const Wrench<Jet>& w, int first) {
+    Eigen::Matrix<T, 6, 6> D;
+    for (int i = 0; i < 3; ++i) {
+      D.row(i) = w.force(i).v.template segment<6>(first).transpose();
+      D.row(3 + i) = w.torque(i).v.template segment<6>(first).transpose();
+    }
+    return D;
+  }
+
+  // D(A^T w) for the wrench w on body i as a function of the pose (K) and the velocity (C) of body j, with the sign.
+  template <class Sink>
+  void wrench_pieces(int i, const State& s_i, int j, const State& s_j, const Eigen::Matrix<T, 6, 6>& K,
+                     const Eigen::Matrix<T, 6, 6>* C, const Wrench<T>& w, T sign, Sink& sink) const {
+    if (i < 0 || j < 0) return;
+    const Body<T>& body_i = model_->bodies[std::size_t(i)];
+    const Body<T>& body_j = model_->bodies[std::size_t(j)];
+    const auto A_i = body_i.motion(s_i), A_j = body_j.motion(s_j);
+    Block<T> stiffness = A_i.transpose() * (K * A_j);
+    if (C != nullptr) {
+      stiffness += A_i.transpose() * ((*C) * body_j.motion_derivative(s_j));
+      sink.damping(i, j, Block<T>(sign * (A_i.transpose() * ((*C) * A_j))));
+    }
+    if (i == j) stiffness += body_i.force_derivative(s_i, w.force);
+    sink.stiffness(i, j, Block<T>(sign * stiffness));
+  }
+
+  // Of an effect; g = -applied.
+  template <int n, class E, class Sink>
+  void effect_pieces(const Placed<E>& placed, const T& t, const Element& q, const Tangent& v,
+                     Sink& sink) const {
+    constexpr bool two = E::two_bodies;
+    Pair<T> pair = states(placed.a, placed.b, q, &v);
+    placed.effect.template add_wrenches<T>(t, pair.a, pair.b, pair.on_a, pair.on_b);
+    if constexpr (!E::uses_pose && !E::uses_velocity) {
+      // What turns with the body is left where its velocities are body-fixed.
+      const Body<T>& body = model_->bodies[std::size_t(placed.a)];
+      if (!body.plain() && body.rotates())
+        sink.stiffness(placed.a, placed.a, Block<T>(-body.force_derivative(pair.a, pair.on_a.force)));
+    } else {
+      using Jet = ceres::Jet<T, n>;
+      constexpr int velocities = n / 2;
+      Pair<Jet> jets{with_pose_jets<Jet>(pair.a, 0), RigidState<Jet>::ground()};
+      if constexpr (E::uses_velocity) add_velocity_jets(jets.a, velocities);
+      if constexpr (two) {
+        jets.b = with_pose_jets<Jet>(pair.b, 6);
+        if constexpr (E::uses_velocity) add_velocity_jets(jets.b, velocities + 6);
+      }
+      placed.effect.template add_wrenches<Jet>(t, jets.a, jets.b, jets.on_a, jets.on_b);
+      const auto pieces = [&](int i, const State& s_i, const Wrench<Jet>& w, const Wrench<T>& value, int j,
+                              const State& s_j, int first) {
+        const Eigen::Matrix<T, 6, 6> K = derivative(w, first), C = derivative(w, velocities + first);
+        wrench_pieces(i, s_i, j, s_j, K, E::uses_velocity ? &C : nullptr, value, T(-1.0), sink);
+      };
+      pieces(placed.a, pair.a, jets.on_a, pair.on_a, placed.a, pair.a, 0);
+      if constexpr (two) {
+        pieces(placed.a, pair.a, jets.on_a, pair.on_a, placed.b, pair.b, 6);
+        pieces(placed.b, pair.b, jets.on_b, pair.on_b, placed.a, pair.a, 0);
+        pieces(placed.b, pair.b, jets.on_b, pair.on_b, placed.b, pair.b, 6);
+      }
+    }
+  }
+
+  // The row r of a constraint in (x, theta) of its bodies: the wrenches of a unit multiplier.
+  template <class C>
+  static Pair<T> gradient_row(const PlacedConstraint<C>& c, const Pair<T>& pair, int r) {
+    Pair<T> result = pair;
+    Eigen::Matrix<T, C::rows, 1> unit = Eigen::Matrix<T, C::rows, 1>::Constant(T(0.0));
+    unit(r) = T(1.0);
+    c.constraint.template add_wrenches<T>(pair.a, pair.b, unit, result.on_a, result.on_b);
+    return result;
+  }
+  static Eigen::Matrix<T, 1, 6> row_of(const Wrench<T>& w) {
+    Eigen::Matrix<T, 1, 6> row;
+    row << w.force.transpose(), w.torque.transpose();
+    return row;
+  }
+  template <class C, class Sink>
+  void gradient_pieces(const PlacedConstraint<C>& c, const Pair<T>& pair, Sink& sink) const {
+    for (int r = 0; r < C::rows; ++r) {
+      const Eigen::Index row = c.row[std::size_t(r)];
+      if (row < 0) continue;
+      const Pair<T> unit = gradient_row(c, pair, r);
+      const auto piece = [&](int i, const State& s, const Wrench<T>& w) {
+        if (i >= 0) sink.gradient(row, i, Block<T>(row_of(w) * model_->bodies[std::size_t(i)].motion(s)));
+      };
+      piece(c.a, pair.a, unit.on_a);
+      piece(c.b, pair.b, unit.on_b);
+    }
+  }
+
+  template <class C, class Sink>
+  void constraint_pieces(const PlacedConstraint<C>& c, const T& t, const Element& q, const Tangent& v,
+                         const Multipliers& lambda, Sink& sink) const {
+    const Pair<T> pair = states(c.a, c.b, q, &v);
+    gradient_pieces(c, pair, sink);
+    using Jet = ceres::Jet<T, 12>;
+    Pair<Jet> jets{with_pose_jets<Jet>(pair.a, 0), with_pose_jets<Jet>(pair.b, 6)};
+    c.constraint.template add_wrenches<Jet>(jets.a, jets.b, c.template gathered<Jet>(lambda), jets.on_a,
+                                            jets.on_b);
+    const auto pieces = [&](int i, const State& s_i, const Wrench<Jet>& w, int j, const State& s_j,
+                            int first) {
+      wrench_pieces(i, s_i, j, s_j, derivative(w, first), nullptr, value(w), T(1.0), sink);
+    };
+    pieces(c.a, pair.a, jets.on_a, c.a, pair.a, 0);
+    pieces(c.a, pair.a, jets.on_a, c.b, pair.b, 6);
+    pieces(c.b, pair.b, jets.on_b, c.a, pair.a, 0);
+    pieces(c.b, pair.b, jets.on_b, c.b, pair.b, 6);
+    if constexpr (Sink::wants_rate_gradient) {
+      const Eigen::Matrix<Jet, C::rows, 1> rate = c.constraint.template rate<Jet>(t, jets.a, jets.b, false);
+      for (int r = 0; r < C::rows; ++r) {
+        const Eigen::Index row = c.row[std::size_t(r)];
+        if (row < 0) continue;
+        const Pair<T> unit = gradient_row(c, pair, r);
+        const auto piece = [&](int i, const State& s, const Wrench<T>& w, int first) {
+          if (i < 0) return;
+          // The velocities (x', Omega) move with q, too.
+          const Body<T>& body = model_->bodies[std::size_t(i)];
+          const Eigen::Matrix<T, 1, 6> direct = rate(r).v.template segment<6>(first).transpose();
+          sink.rate_gradient(row, i,
+                             Block<T>(direct * body.motion(s) + row_of(w) * body.motion_derivative(s)));
+        };
+        piece(c.a, pair.a, unit.on_a, 0);
+        piece(c.b, pair.b, unit.on_b, 6);
+      }
+    }
+  }
+  template <class Jet>
+  static Wrench<T> value(const Wrench<Jet>& w) {
+    return {{w.force(0).a, w.force(1).a, w.force(2).a}, {w.torque(0).a, w.torque(1).a, w.torque(2).a}};
+  }
+
+  std::shared_ptr<const SceneModel<T>> model_;
+};
+
+}  // namespace liebench
