@@ -80,12 +80,12 @@ class SceneSystem {
   Element initial_configuration() const { return model_->q; }
   Tangent initial_velocity() const { return model_->v; }
 
-  Tangent momentum(const Element&, const Tangent& w) const {
+  [[gnu::flatten]] Tangent momentum(const Element&, const Tangent& w) const {
     Tangent p(w.size());
     for (const Body<T>& body : model_->bodies) body.add_momentum(w, p);
     return p;
   }
-  Tangent force(const T& t, const Element& q, const Tangent& v) const {
+  [[gnu::flatten]] Tangent force(const T& t, const Element& q, const Tangent& v) const {
     Tangent g = Tangent::Constant(v.size(), T(0.0));
     Tangent applied = g;
     each_effect([&](const auto& placed) {
@@ -121,7 +121,7 @@ class SceneSystem {
     return model_->vertical.dot(sum);
   }
 
-  Multipliers constraint(const T& t, const Element& q) const {
+  [[gnu::flatten]] Multipliers constraint(const T& t, const Element& q) const {
     Multipliers phi(multipliers());
     each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
       const Pair<T> pair = states(c.a, c.b, q, nullptr);
@@ -143,7 +143,7 @@ class SceneSystem {
     });
     return z;
   }
-  Tangent constraint_force(const Element& q, const Multipliers& lambda) const {
+  [[gnu::flatten]] Tangent constraint_force(const Element& q, const Multipliers& lambda) const {
     Tangent forces = Tangent::Constant(group().size(), T(0.0));
     each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
       Pair<T> pair = states(c.a, c.b, q, nullptr);
@@ -226,7 +226,7 @@ class SceneSystem {
   void add(int body, const State& s, const Wrench<T>& wrench, Tangent& forces) const {
     if (body >= 0) model_->bodies[std::size_t(body)].add(s, wrench, forces);
   }
-  Multipliers rate(const T& t, const Element& q, const Tangent& v, bool moving) const {
+  [[gnu::flatten]] Multipliers rate(const T& t, const Element& q, const Tangent& v, bool moving) const {
     Multipliers r(multipliers());
     each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
       const Pair<T> pair = states(c.a, c.b, q, &v);
@@ -276,6 +276,11 @@ class SceneSystem {
     if (i < 0 || j < 0) return;
     const Body<T>& body_i = model_->bodies[std::size_t(i)];
     const Body<T>& body_j = model_->bodies[std::size_t(j)];
+    if (body_i.plain() && body_j.plain()) {
+      if (C != nullptr) sink.damping(i, j, Block<T>(sign * (*C)));
+      sink.stiffness(i, j, Block<T>(sign * K));
+      return;
+    }
     const auto A_i = body_i.motion(s_i), A_j = body_j.motion(s_j);
     Block<T> stiffness = A_i.transpose() * (K * A_j);
     if (C != nullptr) {
@@ -343,7 +348,9 @@ class SceneSystem {
       if (row < 0) continue;
       const Pair<T> unit = gradient_row(c, pair, r);
       const auto piece = [&](int i, const State& s, const Wrench<T>& w) {
-        if (i >= 0) sink.gradient(row, i, Block<T>(row_of(w) * model_->bodies[std::size_t(i)].motion(s)));
+        if (i < 0) return;
+        const Body<T>& body = model_->bodies[std::size_t(i)];
+        sink.gradient(row, i, body.plain() ? Block<T>(row_of(w)) : Block<T>(row_of(w) * body.motion(s)));
       };
       piece(c.a, pair.a, unit.on_a);
       piece(c.b, pair.b, unit.on_b);
@@ -355,6 +362,46 @@ class SceneSystem {
                          const Multipliers& lambda, Sink& sink) const {
     const Pair<T> pair = states(c.a, c.b, q, &v);
     gradient_pieces(c, pair, sink);
+    if constexpr (requires { C::only_turning; })
+      turning_pieces(c, pair, lambda, sink);
+    else
+      jet_pieces(c, pair, t, lambda, sink);
+  }
+  // Of a constraint whose force on a body depends on the rotation of this body alone.
+  template <class C, class Sink>
+  void turning_pieces(const PlacedConstraint<C>& c, const Pair<T>& pair, const Multipliers& lambda,
+                      Sink& sink) const {
+    const auto own = c.template gathered<T>(lambda);
+    Pair<T> forces = pair;
+    c.constraint.template add_wrenches<T>(pair.a, pair.b, own, forces.on_a, forces.on_b);
+    const auto [turn_a, turn_b] = c.constraint.turning_stiffness(pair.a, pair.b, own);
+    const auto [rate_a, rate_b] = c.constraint.turning_rate(pair.a, pair.b);
+    const auto piece = [&](int i, const State& s, const Wrench<T>& w, const Eigen::Matrix<T, 3, 3>& turn,
+                           const Eigen::Matrix<T, C::rows, 3>& rate, bool first) {
+      if (i < 0) return;
+      Eigen::Matrix<T, 6, 6> K = Eigen::Matrix<T, 6, 6>::Constant(T(0.0));
+      K.template bottomRightCorner<3, 3>() = turn;
+      wrench_pieces(i, s, i, s, K, nullptr, w, T(1.0), sink);
+      if constexpr (Sink::wants_rate_gradient) {
+        const Body<T>& body = model_->bodies[std::size_t(i)];
+        for (int r = 0; r < C::rows; ++r) {
+          const Eigen::Index row = c.row[std::size_t(r)];
+          if (row < 0) continue;
+          Eigen::Matrix<T, 1, 6> direct = Eigen::Matrix<T, 1, 6>::Constant(T(0.0));
+          direct.template tail<3>() = rate.row(r);
+          const Pair<T> unit = gradient_row(c, pair, r);
+          sink.rate_gradient(row, i,
+                             Block<T>(direct * body.motion(s) +
+                                      row_of(first ? unit.on_a : unit.on_b) * body.motion_derivative(s)));
+        }
+      }
+    };
+    piece(c.a, pair.a, forces.on_a, turn_a, rate_a, true);
+    piece(c.b, pair.b, forces.on_b, turn_b, rate_b, false);
+  }
+  template <class C, class Sink>
+  void jet_pieces(const PlacedConstraint<C>& c, const Pair<T>& pair, const T& t, const Multipliers& lambda,
+                  Sink& sink) const {
     using Jet = ceres::Jet<T, 12>;
     Pair<Jet> jets{with_pose_jets<Jet>(pair.a, 0), with_pose_jets<Jet>(pair.b, 6)};
     c.constraint.template add_wrenches<Jet>(jets.a, jets.b, c.template gathered<Jet>(lambda), jets.on_a,
