@@ -19,7 +19,7 @@ struct Operations {
   std::uint64_t multiply = 0;
   std::uint64_t divide = 0;
   std::uint64_t square_root = 0;
-  std::uint64_t transcendental = 0;  // sin, cos, asin, atan2
+  std::uint64_t transcendental = 0;  // sin, cos, asin, atan2, tanh
 
   std::uint64_t total() const { return add + multiply + divide + square_root + transcendental; }
 };
@@ -90,6 +90,10 @@ class Counted {
   friend Counted atan2(const Counted& y, const Counted& x) {
     ++operations().transcendental;
     return std::atan2(y.value_, x.value_);
+  }
+  friend Counted tanh(const Counted& x) {
+    ++operations().transcendental;
+    return std::tanh(x.value_);
   }
   friend Counted abs(const Counted& x) { return std::abs(x.value_); }
   friend bool isfinite(const Counted& x) { return std::isfinite(x.value_); }

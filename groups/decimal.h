@@ -103,4 +103,12 @@ Eigen::Matrix<T, 3, 1> decimal_vector(const Eigen::Vector3d& v) {
   return {decimal<T>(v(0)), decimal<T>(v(1)), decimal<T>(v(2))};
 }
 
+template <class T>
+Eigen::Matrix<T, 3, 3> decimal_matrix(const Eigen::Matrix3d& m) {
+  Eigen::Matrix<T, 3, 3> result;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < 3; ++j) result(i, j) = decimal<T>(m(i, j));
+  return result;
+}
+
 }  // namespace liebench

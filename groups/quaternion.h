@@ -65,10 +65,10 @@ Eigen::Matrix<T, 3, 1> quaternion_log(const Quaternion<T>& p) {
   const Eigen::Matrix<T, 3, 1> axis(flip ? T(-p(1)) : p(1), flip ? T(-p(2)) : p(2), flip ? T(-p(3)) : p(3));
   const T sine_squared = axis.squaredNorm();
   const T cosine_squared = cosine * cosine;
-  if (sine_squared <= atan_series_reach * cosine_squared)
+  if (sine_squared <= T(atan_series_reach) * cosine_squared)
     return axis * (T(2.0) / cosine * atan_ratio<T>(sine_squared / cosine_squared));
   const T sine = sqrt(sine_squared);
-  return axis * (atan2(sine, cosine) * 2.0 / sine);
+  return axis * (atan2(sine, cosine) * T(2.0) / sine);
 }
 
 // The rotation matrix of the unit quaternion p.

@@ -169,7 +169,7 @@ T cotangent_defect(const T& x_squared) {
     return detail::horner<detail::short_terms<T>>(Series::cotangent, x_squared);
   if (x_squared < detail::long_reach)
     return detail::horner<detail::long_terms<T>>(Series::cotangent, x_squared);
-  const T half = sqrt(x_squared) * 0.5;
+  const T half = sqrt(x_squared) * T(0.5);
   return (T(1.0) - half * cos(half) / sin(half)) / x_squared;
 }
 

@@ -88,16 +88,16 @@ struct SO3 : RotationAlgebra<T> {
       }
     Quaternion<T> p;
     if (largest < 0) {
-      const T root = sqrt(trace + 1.0);
+      const T root = sqrt(trace + T(1.0));
       const T f = T(0.5) / root;
-      p << root * 0.5, (R(2, 1) - R(1, 2)) * f, (R(0, 2) - R(2, 0)) * f, (R(1, 0) - R(0, 1)) * f;
+      p << root * T(0.5), (R(2, 1) - R(1, 2)) * f, (R(0, 2) - R(2, 0)) * f, (R(1, 0) - R(0, 1)) * f;
       return p;
     }
     const int i = largest, j = (i + 1) % 3, k = (i + 2) % 3;
-    const T root = sqrt(R(i, i) - R(j, j) - R(k, k) + 1.0);
+    const T root = sqrt(R(i, i) - R(j, j) - R(k, k) + T(1.0));
     const T f = T(0.5) / root;
     p(0) = (R(k, j) - R(j, k)) * f;
-    p(1 + i) = root * 0.5;
+    p(1 + i) = root * T(0.5);
     p(1 + j) = (R(j, i) + R(i, j)) * f;
     p(1 + k) = (R(k, i) + R(i, k)) * f;
     return p;

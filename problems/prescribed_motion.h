@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "groups/decimal.h"
+
 namespace liebench {
 
 // A prescribed coordinate of a joint as a function of time:
@@ -21,6 +23,15 @@ struct PrescribedMotion {
   std::vector<Sine> sines;
 
   bool moves() const { return polynomial.size() > 1 || !sines.empty(); }
+
+  template <class U>
+  PrescribedMotion<U> cast() const {
+    PrescribedMotion<U> result;
+    for (const T& c : polynomial) result.polynomial.push_back(decimal<U>(c));
+    for (const Sine& s : sines)
+      result.sines.push_back({decimal<U>(s.amplitude), decimal<U>(s.angular_frequency), decimal<U>(s.phase)});
+    return result;
+  }
 
   // c, c' and c'' at t.
   std::array<T, 3> at(const T& t) const {

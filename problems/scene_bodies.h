@@ -78,6 +78,8 @@ struct RigidState {
   // A point s of the body, body frame: where it is, and its velocity.
   Vector point(const Vector& s) const { return x + R * s; }
   Vector point_velocity(const Vector& s) const { return u + R * omega.cross(s); }
+  // The point of the body that is at p, inertial frame.
+  Vector body_point(const Vector& p) const { return R.transpose() * (p - x); }
 };
 
 // A force at the centre of mass, inertial frame, N, and a torque about it, body frame, N m.
@@ -92,6 +94,11 @@ struct Wrench {
   static Wrench at(const RigidState<T>& body, const Eigen::Matrix<T, 3, 1>& s,
                    const Eigen::Matrix<T, 3, 1>& force) {
     return {force, s.cross(body.R.transpose() * force)};
+  }
+  Wrench& operator+=(const Wrench& other) {
+    force += other.force;
+    torque += other.torque;
+    return *this;
   }
 };
 

@@ -15,15 +15,6 @@ namespace liebench {
 
 namespace detail {
 
-template <class T>
-PrescribedMotion<T> in_scalar(const PrescribedMotion<double>& motion) {
-  PrescribedMotion<T> result;
-  for (const double c : motion.polynomial) result.polynomial.push_back(decimal<T>(c));
-  for (const auto& s : motion.sines)
-    result.sines.push_back({decimal<T>(s.amplitude), decimal<T>(s.angular_frequency), decimal<T>(s.phase)});
-  return result;
-}
-
 // Turns descriptions into a model in the scalar T: a double of the data means its shortest decimal (groups/decimal.h).
 template <class T>
 class ModelBuilder {
@@ -60,8 +51,7 @@ class ModelBuilder {
     Body<T> body;
     body.kind = d.kind;
     body.mass = decimal<T>(d.mass);
-    for (Eigen::Index i = 0; i < 3; ++i)
-      for (Eigen::Index j = 0; j < 3; ++j) body.inertia(i, j) = decimal<T>(d.inertia(i, j));
+    body.inertia = decimal_matrix<T>(d.inertia);
     if (has_fixed_point(d.kind)) {
       body.fixed_point = decimal_vector<T>(d.fixed_point);
       body.arm = rotation(d).transpose() * (decimal_vector<T>(d.position) - body.fixed_point);
@@ -141,13 +131,13 @@ class ModelBuilder {
       case JointKind::revolute:
         point();
         common_axis();
-        if (j.motion) add(j.a, j.b, PrescribedAngle<T>{e_a, f_a, e_b, in_scalar<T>(*j.motion)});
+        if (j.motion) add(j.a, j.b, PrescribedAngle<T>{e_a, f_a, e_b, j.motion->template cast<T>()});
         break;
       case JointKind::prismatic:
         along_axis();
         common_axis();
         perpendicular(f_a, e_b);
-        if (j.motion) in_plane(n_a, in_scalar<T>(*j.motion));
+        if (j.motion) in_plane(n_a, j.motion->template cast<T>());
         break;
       case JointKind::cylindrical:
         along_axis();

@@ -3,7 +3,15 @@
 #include <tuple>
 #include <vector>
 
+#include "problems/effects/applied_force.h"
+#include "problems/effects/bushing.h"
+#include "problems/effects/contact.h"
+#include "problems/effects/drag.h"
+#include "problems/effects/joint_friction.h"
+#include "problems/effects/motor.h"
+#include "problems/effects/point_gravity.h"
 #include "problems/effects/spring_damper.h"
+#include "problems/effects/torsional_spring.h"
 #include "problems/effects/uniform_gravity.h"
 
 namespace liebench {
@@ -19,6 +27,7 @@ struct Placed {
 template <class T, template <class> class... Effects>
 using EffectLists = std::tuple<std::vector<Placed<Effects<T>>>...>;
 template <class T>
-using SceneEffects = EffectLists<T, UniformGravity, SpringDamper>;
+using SceneEffects = EffectLists<T, UniformGravity, PointGravity, SpringDamper, TorsionalSpring, Bushing,
+                                 Drag, AppliedForce, Motor, RevoluteFriction, PrismaticFriction, Contact>;
 
 }  // namespace liebench
