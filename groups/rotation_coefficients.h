@@ -132,8 +132,8 @@ template <class T>
 [[gnu::noinline]] SincVersine<T> large_sinc_versine(const T& x_squared) {
   using std::sin, std::sqrt;
   const T x = sqrt(x_squared);
-  const T half = sin(x * 0.5) / x;
-  return {sin(x) / x, half * half * 2.0};
+  const T half = sin(x * T(0.5)) / x;
+  return {sin(x) / x, half * half * T(2.0)};
 }
 
 }  // namespace detail
