@@ -141,7 +141,14 @@ class SceneSystem {
     Multipliers z(multipliers());
     each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
       const Pair<T> pair = states(c.a, c.b, q, &v);
-      c.scatter(c.constraint.template curvature<T>(t, pair.a, pair.b), z);
+      Eigen::Matrix<T, C::rows, 1> curvature = c.constraint.template curvature<T>(t, pair.a, pair.b);
+      if (!plain(c.a) || !plain(c.b)) {
+        Pair<T> drift = pair;
+        set_drift(c.a, drift.a);
+        set_drift(c.b, drift.b);
+        curvature += c.constraint.template rate<T>(t, drift.a, drift.b, false);
+      }
+      c.scatter(curvature, z);
     });
     return z;
   }
@@ -219,6 +226,12 @@ class SceneSystem {
   }
   Pair<T> states(int a, int b, const Element& q, const Tangent* v) const {
     return {state(a, q, v), state(b, q, v)};
+  }
+  bool plain(int body) const { return body < 0 || model_->bodies[std::size_t(body)].plain(); }
+  // In place of the velocities: x'' and Omega' where the velocities v of the body do not change.
+  void set_drift(int body, State& s) const {
+    s.u = body < 0 ? State::ground().u : model_->bodies[std::size_t(body)].drift(s);
+    s.omega = State::ground().omega;
   }
   void add(int body, const State& s, const Wrench<T>& wrench, Tangent& forces) const {
     if (body >= 0) model_->bodies[std::size_t(body)].add(s, wrench, forces);

@@ -20,9 +20,9 @@ using Matrix = Eigen::MatrixXd;
 
 constexpr std::array kinds{BodyKind::r3xso3, BodyKind::r3xs3, BodyKind::se3, BodyKind::s3_r3,
                            BodyKind::udq,    BodyKind::so3,   BodyKind::s3,  BodyKind::r3};
-constexpr std::array joints{JointKind::spherical, JointKind::revolute,  JointKind::prismatic,
+constexpr std::array joints{JointKind::spherical,   JointKind::revolute,  JointKind::prismatic,
                             JointKind::cylindrical, JointKind::universal, JointKind::planar,
-                            JointKind::fixed,     JointKind::distance,  JointKind::point_on_plane};
+                            JointKind::fixed,       JointKind::distance,  JointKind::point_on_plane};
 
 // The pieces of linearize as dense matrices.
 struct DensePieces {
@@ -72,7 +72,9 @@ Matrix differences(Eigen::Index m, Eigen::Index rows, const Function& f) {
 }
 
 // The fourth power of the step, and round-off over it, for entries of size `scale`.
-double difference_tolerance(double scale) { return 1e-9 * (1.0 + scale); }
+double difference_tolerance(double scale) {
+  return 1e-9 * (1.0 + scale);
+}
 
 void expect_pieces_are_derivatives(const SceneDescription& scene, const std::string& text) {
   const System system(make_scene_model<double>(scene));
@@ -86,8 +88,9 @@ void expect_pieces_are_derivatives(const SceneDescription& scene, const std::str
   system.linearize(t, q, v, lambda, pieces);
   const Eigen::Index m = v.size(), l = lambda.size();
   const auto moved = [&](const Vector& w) { return Vector(group.compose(q, group.exp(w))); };
-  const Matrix K = differences(
-      m, m, [&](const Vector& w) { return Vector(system.force(t, moved(w), v) + system.constraint_force(moved(w), lambda)); });
+  const Matrix K = differences(m, m, [&](const Vector& w) {
+    return Vector(system.force(t, moved(w), v) + system.constraint_force(moved(w), lambda));
+  });
   const Matrix C = differences(m, m, [&](const Vector& w) { return system.force(t, q, v + w); });
   EXPECT_LE((pieces.K - K).norm(), difference_tolerance(K.norm())) << text;
   EXPECT_LE((pieces.C - C).norm(), difference_tolerance(C.norm())) << text;
@@ -175,8 +178,8 @@ TEST(SceneSystem, WhatIsNotThereIsNotComputed) {
 // Energy is kinetic energy in the inertial frame and potential, whatever the group.
 TEST(SceneSystem, EnergyDoesNotDependOnTheGroup) {
   double expected = 0.0;
-  for (const BodyKind kind : {BodyKind::r3xso3, BodyKind::r3xs3, BodyKind::se3, BodyKind::s3_r3, BodyKind::udq,
-                              BodyKind::so3, BodyKind::s3}) {
+  for (const BodyKind kind : {BodyKind::r3xso3, BodyKind::r3xs3, BodyKind::se3, BodyKind::s3_r3,
+                              BodyKind::udq, BodyKind::so3, BodyKind::s3}) {
     const System system(make_scene_model<double>(heavy_top_scene(kind)));
     const double energy = system.energy(system.initial_configuration(), system.initial_velocity());
     const double momentum =
