@@ -149,7 +149,7 @@ class NewtonKernel {
   static constexpr double factorization_cost = 2.0;
 
   using StepMatrix = typename StepMatrixOf<S, form>::type;
-  using Correction = Eigen::Matrix<Linear, n, 1>;
+  using Correction = Eigen::Matrix<Linear, n, 1, 0, Equation::most, 1>;
 
   static Correction linear(const Unknowns& r) { return r.template cast<Linear>(); }
 

@@ -23,7 +23,6 @@ namespace liebench {
 template <class T>
 class PatternedMatrix {
  public:
-  using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
   static constexpr Eigen::Index largest_dense = 48;
 
   explicit PatternedMatrix(Eigen::Index size) : size_(size), dense_(size <= largest_dense) {
@@ -34,6 +33,7 @@ class PatternedMatrix {
         dense_(other.dense_),
         matrix_(other.matrix_),
         rows_(other.rows_),
+        inverse_pivots_(other.inverse_pivots_),
         entries_(other.entries_),
         slots_(other.slots_),
         begins_(other.begins_),
@@ -78,6 +78,7 @@ class PatternedMatrix {
   }
 
   // x with A x = b, in place.
+  template <class Vector>
   void solve(Vector& b) const {
     if (dense_)
       solve_dense(b);
@@ -168,6 +169,7 @@ class PatternedMatrix {
     return true;
   }
 
+  template <class Vector>
   void solve_sparse(Vector& b) const {
     Eigen::VectorXd x = b.template cast<double>();
     klu_solve(symbolic_.get(), factors_.get(), int(size_), 1, x.data(), common_.get());
@@ -179,10 +181,11 @@ class PatternedMatrix {
     }
   }
 
-  bool factorize_dense() {
+  [[gnu::flatten]] bool factorize_dense() {
     using std::abs;
     const Eigen::Index n = size_;
     rows_.resize(std::size_t(n));
+    inverse_pivots_.resize(std::size_t(n));
     T* const A = matrix_.data();
     for (Eigen::Index j = 0; j < n; ++j) {
       T* const pivots = A + j * n;
@@ -193,6 +196,7 @@ class PatternedMatrix {
       rows_[std::size_t(j)] = pivot;
       if (pivot != j)
         for (Eigen::Index c = 0; c < n; ++c) std::swap(A[c * n + j], A[c * n + pivot]);
+      inverse_pivots_[std::size_t(j)] = T(1.0) / pivots[j];
       for (Eigen::Index i = j + 1; i < n; ++i) pivots[i] /= pivots[j];
       for (Eigen::Index c = j + 1; c < n; ++c) {
         T* const column = A + c * n;
@@ -203,15 +207,20 @@ class PatternedMatrix {
     }
     return true;
   }
-  void solve_dense(Vector& b) const {
+  template <class Vector>
+  [[gnu::flatten]] void solve_dense(Vector& b) const {
     const Eigen::Index n = size_;
     const T* const A = matrix_.data();
-    for (Eigen::Index j = 0; j < n; ++j) std::swap(b(j), b(rows_[std::size_t(j)]));
-    for (Eigen::Index j = 0; j < n; ++j)
-      for (Eigen::Index i = j + 1; i < n; ++i) b(i) -= A[j * n + i] * b(j);
+    T* const x = b.data();
+    for (Eigen::Index j = 0; j < n; ++j) std::swap(x[j], x[rows_[std::size_t(j)]]);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const T factor = x[j];
+      for (Eigen::Index i = j + 1; i < n; ++i) x[i] -= A[j * n + i] * factor;
+    }
     for (Eigen::Index j = n; j-- > 0;) {
-      b(j) /= A[j * n + j];
-      for (Eigen::Index i = 0; i < j; ++i) b(i) -= A[j * n + i] * b(j);
+      const T factor = x[j] * inverse_pivots_[std::size_t(j)];
+      x[j] = factor;
+      for (Eigen::Index i = 0; i < j; ++i) x[i] -= A[j * n + i] * factor;
     }
   }
 
@@ -221,6 +230,7 @@ class PatternedMatrix {
   // Dense: the matrix, then its factors, and the row that each step exchanged.
   Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> matrix_;
   std::vector<Eigen::Index> rows_;
+  std::vector<T> inverse_pivots_;
   // Sparse, by columns.
   std::vector<Entry> entries_;
   std::vector<std::int32_t> slots_, begins_, row_of_;

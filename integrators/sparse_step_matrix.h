@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "groups/block_diagonal.h"
-#include "integrators/affine_closure.h"
 #include "integrators/audit.h"
 #include "integrators/consistent_projection.h"
 #include "integrators/outcome.h"
@@ -40,9 +39,7 @@ class SparseStepMatrix {
   using T = typename S::Scalar;
   using Linear = T;
   using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
-  using Correction = Eigen::Matrix<T, Eigen::Dynamic, 1>;
-  using Scalars = ClosureDerivatives<T>;
-  using Blocks = ClosureDerivatives<BlockDiagonal<T>>;
+  using Correction = typename StepEquation<S, form>::Unknowns;
   static constexpr bool stabilized = form == Form::stabilized_index2;
   static_assert(std::same_as<T, LinearScalar<T>>);
 
@@ -91,6 +88,11 @@ class SparseStepMatrix {
   }
 
   Correction solve(const Correction& r) const {
+    if (extended_.size() == r.size()) {
+      Correction x = r;
+      matrix_.solve(x);
+      return x;
+    }
     extended_.head(r.size()) = r;
     extended_.tail(extended_.size() - r.size()).setConstant(T(0.0));
     matrix_.solve(extended_);

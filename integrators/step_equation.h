@@ -37,7 +37,8 @@ class StepEquation {
   static constexpr int l = S::constraints;
   static constexpr bool stabilized = l != 0 && form == Form::stabilized_index2;
   static constexpr int n = m == run_time_size ? run_time_size : m + (stabilized ? 2 * l : l);
-  using Unknowns = Eigen::Matrix<T, n, 1>;  // (d, h lambda, eta)
+  static constexpr int most = most_unknowns<S, stabilized>();
+  using Unknowns = Eigen::Matrix<T, n, 1, 0, most, 1>;  // (d, h lambda, eta)
 
   static Unknowns unknowns(const S& system) {
     if constexpr (n == run_time_size)

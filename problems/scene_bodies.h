@@ -220,6 +220,12 @@ struct Body {
       D.template topRightCorner<3, 3>() = -(s.R * skew(Vector(s.R.transpose() * s.u)));
     return D;
   }
+  // x'' where v does not change: R (Omega x U) of body-fixed velocities.
+  Vector drift(const State& s) const {
+    if (has_fixed_point(kind)) return s.R * s.omega.cross(s.omega.cross(arm));
+    if (has_body_velocity(kind)) return s.R * s.omega.cross(Vector(s.R.transpose() * s.u));
+    return Vector::Constant(T(0.0));
+  }
   // D(A^T (f, .)) . w, m x m, at a fixed wrench.
   Block force_derivative(const State& s, const Vector& force) const {
     Block D = Block::Constant(velocities(), velocities(), T(0.0));

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "problems/prescribed_motion.h"
 #include "problems/scene_bodies.h"
@@ -85,6 +86,19 @@ struct Coincidence {
     on_a.torque -= point_a.template cast<U>().cross(a.R.transpose() * lambda);
     on_b.force += lambda;
     on_b.torque += point_b.template cast<U>().cross(b.R.transpose() * lambda);
+  }
+
+  // What a Newton matrix needs, without Jets: the derivatives of the torques and of the rate with respect to the rotation of
+  // the same body; all others vanish.
+  static constexpr bool only_turning = true;
+  using Matrix = Eigen::Matrix<T, 3, 3>;
+  std::pair<Matrix, Matrix> turning_stiffness(const RigidState<T>& a, const RigidState<T>& b,
+                                              const Vector& lambda) const {
+    return {-(skew(point_a) * skew(Vector(a.R.transpose() * lambda))),
+            skew(point_b) * skew(Vector(b.R.transpose() * lambda))};
+  }
+  std::pair<Matrix, Matrix> turning_rate(const RigidState<T>& a, const RigidState<T>& b) const {
+    return {a.R * skew(Vector(a.omega.cross(point_a))), -(b.R * skew(Vector(b.omega.cross(point_b))))};
   }
 };
 

@@ -48,7 +48,7 @@ class SceneGroup {
     each([&]<class G>(G, const Body<T>& b) { put<G>(result, b, G::identity()); });
     return result;
   }
-  Element compose(const Element& p, const Element& q) const {
+  [[gnu::flatten]] Element compose(const Element& p, const Element& q) const {
     Element result(coordinates());
     each([&]<class G>(G, const Body<T>& b) { put<G>(result, b, G::compose(at<G>(p, b), at<G>(q, b))); });
     return result;
@@ -58,7 +58,7 @@ class SceneGroup {
     each([&]<class G>(G, const Body<T>& b) { put<G>(result, b, G::inverse(at<G>(q, b))); });
     return result;
   }
-  Element exp(const Tangent& v) const {
+  [[gnu::flatten]] Element exp(const Tangent& v) const {
     count(&GroupCalls::exp);
     Element result(coordinates());
     each([&]<class G>(G, const Body<T>& b) { put<G>(result, b, G::exp(part<G>(v, b))); });
@@ -70,7 +70,7 @@ class SceneGroup {
     each([&]<class G>(G, const Body<T>& b) { part<G>(result, b) = G::log(at<G>(q, b)); });
     return result;
   }
-  Tangent commutator(const Tangent& v, const Tangent& w) const {
+  [[gnu::flatten]] Tangent commutator(const Tangent& v, const Tangent& w) const {
     count(&GroupCalls::commutators);
     Tangent result(size());
     each([&]<class G>(G, const Body<T>& b) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <ceres/jet.h>
-
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
@@ -13,6 +11,7 @@
 
 #include "problems/effects/list.h"
 #include "problems/scene_constraints.h"
+#include "problems/scene_derivatives.h"
 #include "problems/scene_group.h"
 #include "problems/system.h"
 
@@ -43,13 +42,16 @@ struct PlacedConstraint {
 };
 
 template <class T>
+using SceneConstraints =
+    std::tuple<std::vector<PlacedConstraint<Coincidence<T>>>, std::vector<PlacedConstraint<Perpendicular<T>>>,
+               std::vector<PlacedConstraint<InPlane<T>>>, std::vector<PlacedConstraint<Distance<T>>>,
+               std::vector<PlacedConstraint<PrescribedAngle<T>>>>;
+
+template <class T>
 struct SceneModel {
   using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
   std::vector<Body<T>> bodies;
-  std::tuple<std::vector<PlacedConstraint<Coincidence<T>>>, std::vector<PlacedConstraint<Perpendicular<T>>>,
-             std::vector<PlacedConstraint<InPlane<T>>>, std::vector<PlacedConstraint<Distance<T>>>,
-             std::vector<PlacedConstraint<PrescribedAngle<T>>>>
-      constraints;
+  SceneConstraints<T> constraints;
   SceneEffects<T> effects;
   Eigen::Index rows = 0;                                       // of all constraints
   Vector q, v;                                                 // initial values
@@ -80,12 +82,12 @@ class SceneSystem {
   Element initial_configuration() const { return model_->q; }
   Tangent initial_velocity() const { return model_->v; }
 
-  Tangent momentum(const Element&, const Tangent& w) const {
+  [[gnu::flatten]] Tangent momentum(const Element&, const Tangent& w) const {
     Tangent p(w.size());
     for (const Body<T>& body : model_->bodies) body.add_momentum(w, p);
     return p;
   }
-  Tangent force(const T& t, const Element& q, const Tangent& v) const {
+  [[gnu::flatten]] Tangent force(const T& t, const Element& q, const Tangent& v) const {
     Tangent g = Tangent::Constant(v.size(), T(0.0));
     Tangent applied = g;
     each_effect([&](const auto& placed) {
@@ -121,7 +123,7 @@ class SceneSystem {
     return model_->vertical.dot(sum);
   }
 
-  Multipliers constraint(const T& t, const Element& q) const {
+  [[gnu::flatten]] Multipliers constraint(const T& t, const Element& q) const {
     Multipliers phi(multipliers());
     each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
       const Pair<T> pair = states(c.a, c.b, q, nullptr);
@@ -139,11 +141,18 @@ class SceneSystem {
     Multipliers z(multipliers());
     each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
       const Pair<T> pair = states(c.a, c.b, q, &v);
-      c.scatter(c.constraint.template curvature<T>(t, pair.a, pair.b), z);
+      Eigen::Matrix<T, C::rows, 1> curvature = c.constraint.template curvature<T>(t, pair.a, pair.b);
+      if (!plain(c.a) || !plain(c.b)) {
+        Pair<T> drift = pair;
+        set_drift(c.a, drift.a);
+        set_drift(c.b, drift.b);
+        curvature += c.constraint.template rate<T>(t, drift.a, drift.b, false);
+      }
+      c.scatter(curvature, z);
     });
     return z;
   }
-  Tangent constraint_force(const Element& q, const Multipliers& lambda) const {
+  [[gnu::flatten]] Tangent constraint_force(const Element& q, const Multipliers& lambda) const {
     Tangent forces = Tangent::Constant(group().size(), T(0.0));
     each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
       Pair<T> pair = states(c.a, c.b, q, nullptr);
@@ -166,12 +175,7 @@ class SceneSystem {
   template <class Sink>
   void linearize(const T& t, const Element& q, const Tangent& v, const Multipliers& lambda,
                  Sink& sink) const {
-    each_effect([&]<class E>(const Placed<E>& placed) {
-      if constexpr (E::two_bodies)
-        effect_pieces<24>(placed, t, q, v, sink);
-      else
-        effect_pieces<12>(placed, t, q, v, sink);
-    });
+    each_effect([&]<class E>(const Placed<E>& placed) { effect_pieces(placed, t, q, v, sink); });
     for (std::size_t i = 0; i < model_->bodies.size(); ++i) {
       const Body<T>& body = model_->bodies[i];
       if (body.has_inertial_forces()) sink.damping(int(i), int(i), body.inertial_damping(v));
@@ -223,50 +227,22 @@ class SceneSystem {
   Pair<T> states(int a, int b, const Element& q, const Tangent* v) const {
     return {state(a, q, v), state(b, q, v)};
   }
+  bool plain(int body) const { return body < 0 || model_->bodies[std::size_t(body)].plain(); }
+  // In place of the velocities: x'' and Omega' where the velocities v of the body do not change.
+  void set_drift(int body, State& s) const {
+    s.u = body < 0 ? State::ground().u : model_->bodies[std::size_t(body)].drift(s);
+    s.omega = State::ground().omega;
+  }
   void add(int body, const State& s, const Wrench<T>& wrench, Tangent& forces) const {
     if (body >= 0) model_->bodies[std::size_t(body)].add(s, wrench, forces);
   }
-  Multipliers rate(const T& t, const Element& q, const Tangent& v, bool moving) const {
+  [[gnu::flatten]] Multipliers rate(const T& t, const Element& q, const Tangent& v, bool moving) const {
     Multipliers r(multipliers());
     each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
       const Pair<T> pair = states(c.a, c.b, q, &v);
       c.scatter(c.constraint.template rate<T>(t, pair.a, pair.b, moving), r);
     });
     return r;
-  }
-
-  // States as functions of (delta x, delta theta) of a and b and, where n = 24 or a one-body effect has n = 12, of their
-  // velocities (x', Omega): Jets with that order of the derivatives.
-  template <class Jet>
-  static RigidState<Jet> with_pose_jets(const State& s, int first) {
-    RigidState<Jet> jets{s.x.template cast<Jet>(), s.R.template cast<Jet>(), s.u.template cast<Jet>(),
-                         s.omega.template cast<Jet>()};
-    Eigen::Matrix<Jet, 3, 3> turn = Eigen::Matrix<Jet, 3, 3>::Identity();
-    for (int i = 0; i < 3; ++i) {
-      jets.x(i).v(first + i) = T(1.0);
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      turn(k, j).v(first + 3 + i) = T(1.0);
-      turn(j, k).v(first + 3 + i) = T(-1.0);
-    }
-    jets.R = (jets.R * turn).eval();
-    return jets;
-  }
-  template <class Jet>
-  static void add_velocity_jets(RigidState<Jet>& jets, int first) {
-    for (int i = 0; i < 3; ++i) {
-      jets.u(i).v(first + i) = T(1.0);
-      jets.omega(i).v(first + 3 + i) = T(1.0);
-    }
-  }
-  // Rows of the derivatives of a wrench.
-  template <class Jet>
-  static Eigen::Matrix<T, 6, 6> derivative(const Wrench<Jet>& w, int first) {
-    Eigen::Matrix<T, 6, 6> D;
-    for (int i = 0; i < 3; ++i) {
-      D.row(i) = w.force(i).v.template segment<6>(first).transpose();
-      D.row(3 + i) = w.torque(i).v.template segment<6>(first).transpose();
-    }
-    return D;
   }
 
   // D(A^T w) for the wrench w on body i as a function of the pose (K) and the velocity (C) of body j, with the sign.
@@ -276,6 +252,11 @@ class SceneSystem {
     if (i < 0 || j < 0) return;
     const Body<T>& body_i = model_->bodies[std::size_t(i)];
     const Body<T>& body_j = model_->bodies[std::size_t(j)];
+    if (body_i.plain() && body_j.plain()) {
+      if (C != nullptr) sink.damping(i, j, Block<T>(sign * (*C)));
+      sink.stiffness(i, j, Block<T>(sign * K));
+      return;
+    }
     const auto A_i = body_i.motion(s_i), A_j = body_j.motion(s_j);
     Block<T> stiffness = A_i.transpose() * (K * A_j);
     if (C != nullptr) {
@@ -287,10 +268,9 @@ class SceneSystem {
   }
 
   // Of an effect; g = -applied.
-  template <int n, class E, class Sink>
+  template <class E, class Sink>
   void effect_pieces(const Placed<E>& placed, const T& t, const Element& q, const Tangent& v,
                      Sink& sink) const {
-    constexpr bool two = E::two_bodies;
     Pair<T> pair = states(placed.a, placed.b, q, &v);
     placed.effect.template add_wrenches<T>(t, pair.a, pair.b, pair.on_a, pair.on_b);
     if constexpr (!E::uses_pose && !E::uses_velocity) {
@@ -299,26 +279,15 @@ class SceneSystem {
       if (!body.plain() && body.rotates())
         sink.stiffness(placed.a, placed.a, Block<T>(-body.force_derivative(pair.a, pair.on_a.force)));
     } else {
-      using Jet = ceres::Jet<T, n>;
-      constexpr int velocities = n / 2;
-      Pair<Jet> jets{with_pose_jets<Jet>(pair.a, 0), RigidState<Jet>::ground()};
-      if constexpr (E::uses_velocity) add_velocity_jets(jets.a, velocities);
-      if constexpr (two) {
-        jets.b = with_pose_jets<Jet>(pair.b, 6);
-        if constexpr (E::uses_velocity) add_velocity_jets(jets.b, velocities + 6);
-      }
-      placed.effect.template add_wrenches<Jet>(t, jets.a, jets.b, jets.on_a, jets.on_b);
-      const auto pieces = [&](int i, const State& s_i, const Wrench<Jet>& w, const Wrench<T>& value, int j,
-                              const State& s_j, int first) {
-        const Eigen::Matrix<T, 6, 6> K = derivative(w, first), C = derivative(w, velocities + first);
-        wrench_pieces(i, s_i, j, s_j, K, E::uses_velocity ? &C : nullptr, value, T(-1.0), sink);
-      };
-      pieces(placed.a, pair.a, jets.on_a, pair.on_a, placed.a, pair.a, 0);
-      if constexpr (two) {
-        pieces(placed.a, pair.a, jets.on_a, pair.on_a, placed.b, pair.b, 6);
-        pieces(placed.b, pair.b, jets.on_b, pair.on_b, placed.a, pair.a, 0);
-        pieces(placed.b, pair.b, jets.on_b, pair.on_b, placed.b, pair.b, 6);
-      }
+      const WrenchDerivatives<T> D = effect_derivatives(placed.effect, t, pair.a, pair.b);
+      const std::array<int, 2> bodies{placed.a, placed.b};
+      const std::array<const State*, 2> at{&pair.a, &pair.b};
+      const std::array<const Wrench<T>*, 2> wrenches{&pair.on_a, &pair.on_b};
+      constexpr std::size_t count = E::two_bodies ? 2 : 1;
+      for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < count; ++j)
+          wrench_pieces(bodies[i], *at[i], bodies[j], *at[j], D.pose[i][j],
+                        E::uses_velocity ? &D.velocity[i][j] : nullptr, *wrenches[i], T(-1.0), sink);
     }
   }
 
@@ -343,7 +312,9 @@ class SceneSystem {
       if (row < 0) continue;
       const Pair<T> unit = gradient_row(c, pair, r);
       const auto piece = [&](int i, const State& s, const Wrench<T>& w) {
-        if (i >= 0) sink.gradient(row, i, Block<T>(row_of(w) * model_->bodies[std::size_t(i)].motion(s)));
+        if (i < 0) return;
+        const Body<T>& body = model_->bodies[std::size_t(i)];
+        sink.gradient(row, i, body.plain() ? Block<T>(row_of(w)) : Block<T>(row_of(w) * body.motion(s)));
       };
       piece(c.a, pair.a, unit.on_a);
       piece(c.b, pair.b, unit.on_b);
@@ -355,40 +326,72 @@ class SceneSystem {
                          const Multipliers& lambda, Sink& sink) const {
     const Pair<T> pair = states(c.a, c.b, q, &v);
     gradient_pieces(c, pair, sink);
-    using Jet = ceres::Jet<T, 12>;
-    Pair<Jet> jets{with_pose_jets<Jet>(pair.a, 0), with_pose_jets<Jet>(pair.b, 6)};
-    c.constraint.template add_wrenches<Jet>(jets.a, jets.b, c.template gathered<Jet>(lambda), jets.on_a,
-                                            jets.on_b);
-    const auto pieces = [&](int i, const State& s_i, const Wrench<Jet>& w, int j, const State& s_j,
-                            int first) {
-      wrench_pieces(i, s_i, j, s_j, derivative(w, first), nullptr, value(w), T(1.0), sink);
+    if constexpr (requires { C::only_turning; })
+      turning_pieces(c, pair, lambda, sink);
+    else
+      jet_pieces(c, pair, t, lambda, sink);
+  }
+  // Of a constraint whose force on a body depends on the rotation of this body alone.
+  template <class C, class Sink>
+  void turning_pieces(const PlacedConstraint<C>& c, const Pair<T>& pair, const Multipliers& lambda,
+                      Sink& sink) const {
+    const auto own = c.template gathered<T>(lambda);
+    Pair<T> forces = pair;
+    c.constraint.template add_wrenches<T>(pair.a, pair.b, own, forces.on_a, forces.on_b);
+    const auto [turn_a, turn_b] = c.constraint.turning_stiffness(pair.a, pair.b, own);
+    const auto [rate_a, rate_b] = c.constraint.turning_rate(pair.a, pair.b);
+    const auto piece = [&](int i, const State& s, const Wrench<T>& w, const Eigen::Matrix<T, 3, 3>& turn,
+                           const Eigen::Matrix<T, C::rows, 3>& rate, bool first) {
+      if (i < 0) return;
+      Eigen::Matrix<T, 6, 6> K = Eigen::Matrix<T, 6, 6>::Constant(T(0.0));
+      K.template bottomRightCorner<3, 3>() = turn;
+      wrench_pieces(i, s, i, s, K, nullptr, w, T(1.0), sink);
+      if constexpr (Sink::wants_rate_gradient) {
+        const Body<T>& body = model_->bodies[std::size_t(i)];
+        for (int r = 0; r < C::rows; ++r) {
+          const Eigen::Index row = c.row[std::size_t(r)];
+          if (row < 0) continue;
+          Eigen::Matrix<T, 1, 6> direct = Eigen::Matrix<T, 1, 6>::Constant(T(0.0));
+          direct.template tail<3>() = rate.row(r);
+          const Pair<T> unit = gradient_row(c, pair, r);
+          sink.rate_gradient(row, i,
+                             Block<T>(direct * body.motion(s) +
+                                      row_of(first ? unit.on_a : unit.on_b) * body.motion_derivative(s)));
+        }
+      }
     };
-    pieces(c.a, pair.a, jets.on_a, c.a, pair.a, 0);
-    pieces(c.a, pair.a, jets.on_a, c.b, pair.b, 6);
-    pieces(c.b, pair.b, jets.on_b, c.a, pair.a, 0);
-    pieces(c.b, pair.b, jets.on_b, c.b, pair.b, 6);
-    if constexpr (Sink::wants_rate_gradient) {
-      const Eigen::Matrix<Jet, C::rows, 1> rate = c.constraint.template rate<Jet>(t, jets.a, jets.b, false);
+    piece(c.a, pair.a, forces.on_a, turn_a, rate_a, true);
+    piece(c.b, pair.b, forces.on_b, turn_b, rate_b, false);
+  }
+  template <class C, class Sink>
+  void jet_pieces(const PlacedConstraint<C>& c, const Pair<T>& pair, const T& t, const Multipliers& lambda,
+                  Sink& sink) const {
+    const auto own = c.template gathered<T>(lambda);
+    Pair<T> forces = pair;
+    c.constraint.template add_wrenches<T>(pair.a, pair.b, own, forces.on_a, forces.on_b);
+    const ConstraintDerivatives<C, T> D = constraint_derivatives(c.constraint, t, pair.a, pair.b, own);
+    const std::array<int, 2> bodies{c.a, c.b};
+    const std::array<const State*, 2> at{&pair.a, &pair.b};
+    const std::array<const Wrench<T>*, 2> wrenches{&forces.on_a, &forces.on_b};
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t j = 0; j < 2; ++j)
+        wrench_pieces(bodies[i], *at[i], bodies[j], *at[j], D.pose[i][j], nullptr, *wrenches[i], T(1.0),
+                      sink);
+    if constexpr (Sink::wants_rate_gradient)
       for (int r = 0; r < C::rows; ++r) {
         const Eigen::Index row = c.row[std::size_t(r)];
         if (row < 0) continue;
         const Pair<T> unit = gradient_row(c, pair, r);
-        const auto piece = [&](int i, const State& s, const Wrench<T>& w, int first) {
-          if (i < 0) return;
+        for (std::size_t i = 0; i < 2; ++i) {
+          if (bodies[i] < 0) continue;
           // The velocities (x', Omega) move with q, too.
-          const Body<T>& body = model_->bodies[std::size_t(i)];
-          const Eigen::Matrix<T, 1, 6> direct = rate(r).v.template segment<6>(first).transpose();
-          sink.rate_gradient(row, i,
-                             Block<T>(direct * body.motion(s) + row_of(w) * body.motion_derivative(s)));
-        };
-        piece(c.a, pair.a, unit.on_a, 0);
-        piece(c.b, pair.b, unit.on_b, 6);
+          const Body<T>& body = model_->bodies[std::size_t(bodies[i])];
+          const Eigen::Matrix<T, 1, 6> direct = D.rate[i].row(r);
+          sink.rate_gradient(row, bodies[i],
+                             Block<T>(direct * body.motion(*at[i]) + row_of(i == 0 ? unit.on_a : unit.on_b) *
+                                                                         body.motion_derivative(*at[i])));
+        }
       }
-    }
-  }
-  template <class Jet>
-  static Wrench<T> value(const Wrench<Jet>& w) {
-    return {{w.force(0).a, w.force(1).a, w.force(2).a}, {w.torque(0).a, w.torque(1).a, w.torque(2).a}};
   }
 
   std::shared_ptr<const SceneModel<T>> model_;

@@ -94,6 +94,13 @@ using VelocityMatrix = typename S::Group::TangentMatrix;
 template <class S>
 using ConstraintGradient = Eigen::Matrix<typename S::Scalar, S::constraints, S::Group::dimension>;
 
+// The most unknowns of a step, n where it is known: velocities, and multipliers once or twice.
+template <class S, bool twice>
+constexpr int most_unknowns() {
+  constexpr int m = S::Group::Tangent::MaxRowsAtCompileTime, l = most_multipliers<S>();
+  return m == run_time_size || l == run_time_size ? run_time_size : m + (twice ? 2 : 1) * l;
+}
+
 // The group of a system: an object without a state, unless its size is known at run time only.
 template <class S>
 decltype(auto) group_of(const S& system) {

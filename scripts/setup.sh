@@ -15,7 +15,7 @@ usage() { sed -n '2,/^set -/{/^set -/d;s/^# \{0,1\}//p}' "$0"; }
 # One package a word; in "a|b" either will do, and a is the one installed.
 packages=(
   build-essential cmake ninja-build git ca-certificates
-  libeigen3-dev libceres-dev libboost-dev libqd-dev
+  libeigen3-dev libceres-dev libsuitesparse-dev libboost-dev libqd-dev
   nlohmann-json3-dev rapidjson-dev libcli11-dev libfmt-dev libxxhash-dev libmuparser-dev
   'gnuplot-nox|gnuplot-qt|gnuplot-x11'
   libgtest-dev libgmock-dev libvalijson-dev libbenchmark-dev

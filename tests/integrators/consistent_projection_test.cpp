@@ -37,7 +37,7 @@ void expect_round_off_residual(double eps) {
   for (const HeavyTopParameters& p : sample_tops()) {
     const S system(p);
     RandomNumbers random(11);
-    for (const RigidState& state : sample_states()) {
+    for (const TopState& state : sample_states()) {
       const Configuration<S> q = system.configuration(state.R.cast<T>());
       const Velocity<S> a = (1000 * random.vector<6>()).cast<T>();
       const Multipliers<S> b = (100 * random.vector<3>()).cast<T>();

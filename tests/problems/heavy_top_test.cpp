@@ -55,7 +55,7 @@ std::vector<State<S>> states() {
   constexpr int free = S::Group::dimension - 3;  // 0 or 3
   std::vector<State<S>> all;
   RandomNumbers random(5);
-  for (const RigidState& r : sample_states()) {
+  for (const TopState& r : sample_states()) {
     State<S> s;
     const Vector x = 2 * random.vector<3>();
     s.q = placed<S>(x, r.R);
@@ -210,7 +210,7 @@ TYPED_TEST(HeavyTopLaws, EnergyAndVerticalAngularMomentumAreConstantAlongTheEqua
   };
   for (const HeavyTopParameters& p : sample_tops()) {
     const S system(p);
-    for (const RigidState& r : sample_states()) {
+    for (const TopState& r : sample_states()) {
       const auto q = system.configuration(r.R);
       const auto v = system.velocity(r.R, r.omega);
       NoAudit audit;
@@ -239,7 +239,7 @@ void expect_the_motion_of_the_paper() {
     const HeavyTopSO3<T> rotation(p);
     const HeavyTopR3xSO3<T> body(p);
     const S system(p);
-    for (const RigidState& s : sample_states()) {
+    for (const TopState& s : sample_states()) {
       // A rotation to the digits of T, also where the sample is one of doubles.
       Eigen::Matrix<T, 3, 3> R = s.R.template cast<T>();
       for (int i = 0; i < 2; ++i) R = SO3<T>::renormalized(R);

@@ -65,13 +65,13 @@ inline HeavyTopParameters slow_top() {
 }
 
 // A rigid motion: attitude, angular velocity and its rate, body frame.
-struct RigidState {
+struct TopState {
   Eigen::Matrix3d R;
   Eigen::Vector3d omega, omega_dot;
 };
 
-inline std::vector<RigidState> sample_states() {
-  std::vector<RigidState> all;
+inline std::vector<TopState> sample_states() {
+  std::vector<TopState> all;
   RandomNumbers random(77);
   for (const double speed : {0.0, 1.0, 150.0}) {
     const Eigen::Matrix3d R = SO3<double>::exp(3 * random.vector<3>());

@@ -1,0 +1,7 @@
+#include "harness/instances/scene_steppers.h"
+
+namespace liebench {
+
+template StepperMaker<SmallScene> any_stepper;
+
+}  // namespace liebench
