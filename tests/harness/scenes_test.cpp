@@ -71,6 +71,34 @@ TEST(Scenes, AllAreValidByTheSchemaAndAcceptedUnderTheNameOfTheirFile) {
   }
 }
 
+// The indented blocks of a page that are JSON objects of their own.
+std::vector<std::string> examples_of(const std::filesystem::path& page) {
+  std::ifstream stream(page);
+  std::vector<std::string> examples;
+  bool inside = false;
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.starts_with("    ")) {
+      inside = false;
+      continue;
+    }
+    if (!inside) examples.emplace_back();
+    inside = true;
+    examples.back() += line + '\n';
+  }
+  std::erase_if(examples, [](const std::string& text) { return !text.starts_with("    {"); });
+  return examples;
+}
+
+TEST(Scenes, OfThePageAreAccepted) {
+  const auto examples = examples_of(std::filesystem::path(LIEBENCH_SOURCE_DIR) / "docs" / "scenes.md");
+  ASSERT_EQ(examples.size(), 3u);
+  for (const std::string& text : examples) {
+    EXPECT_EQ(scene_schema().violations(text), "") << text;
+    const System system(make_scene_model<double>(read_scene(scene_json(text))));
+    EXPECT_LT(largest(system.constraint(0.0, system.initial_configuration())), 1e-15) << text;
+  }
+}
+
 TEST(Scenes, FitTogetherAndMoveAsTheirJointsAllow) {
   for (const auto& file : scene_files()) {
     const System system(make_scene_model<double>(read_scene_file(file)));
