@@ -155,7 +155,7 @@ TEST(Scenes, TheHeavyTopBeginsWithItsKnownAcceleration) {
   EXPECT_NEAR(turning(1), 0.0, 1e-9);
 }
 
-// The constants of METHODS: energy, momentum about the vertical, and Kovalevskaya's.
+// Constants of the motion: energy, momentum about the vertical, and Kovalevskaya's.
 TEST(Scenes, KovalevskayasTopHasItsConstants) {
   const System system(make_scene_model<double>(scene_of("kovalevskaya_top")));
   const auto q = system.initial_configuration();
