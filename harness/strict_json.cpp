@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <numeric>
 #include <set>
 
@@ -15,7 +15,6 @@ namespace liebench {
 
 namespace {
 
-constexpr std::uintmax_t largest_file = 16u << 20;
 constexpr int deepest_nesting = 64;
 
 // Levenshtein distance, case ignored.
@@ -36,11 +35,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-// A value as an error message shows it: short.
 std::string shown(const Json& value) {
-  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (text.size() > 60) text = text.substr(0, 57) + "...";
-  return text;
+  return shortened(value.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 std::string escaped(std::string key) {
@@ -58,10 +54,17 @@ std::string escaped(std::string key) {
 
 }  // namespace
 
+std::string shortened(std::string text) {
+  if (text.size() > 60) text = text.substr(0, 57) + "...";
+  return text;
+}
+
 std::string nearest(std::string_view word, const std::vector<std::string>& allowed) {
   std::string best;
   std::size_t least = word.size() / 2 + 1;
   for (const std::string& candidate : allowed) {
+    // At least the difference of their lengths: a word of a megabyte is compared with none.
+    if (word.size() >= candidate.size() + least || candidate.size() >= word.size() + least) continue;
     const std::size_t d = distance(word, candidate);
     if (d < least) {
       least = d;
@@ -94,8 +97,8 @@ Json parse_json(std::string_view text, const std::string& source) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
-      throw InputError("",
-                       fmt::format("the key \"{}\" stands twice in one object", parsed.get<std::string>()));
+      throw InputError(
+          "", fmt::format("the key \"{}\" stands twice in one object", shortened(parsed.get<std::string>())));
     return true;
   };
   try {
@@ -119,15 +122,22 @@ Json parse_json(std::string_view text, const std::string& source) {
   }
 }
 
-Json read_json_file(const std::filesystem::path& file) {
+Json read_json_file(const std::filesystem::path& file, std::uintmax_t most_bytes) {
   std::error_code code;
   const auto size = std::filesystem::file_size(file, code);
-  if (!code && size > largest_file)
-    throw InputError(file.string(), fmt::format("{} bytes; at most {} are allowed", size, largest_file));
+  if (!code && size > most_bytes)
+    throw InputError(file.string(), fmt::format("{} bytes; at most {} are allowed", size, most_bytes));
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file, code))
     throw InputError(file.string(), "cannot be read; a JSON file is expected here");
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  // A device or a pipe has no size.
+  std::string text;
+  std::array<char, 1 << 16> part;
+  while (stream.read(part.data(), part.size()) || stream.gcount() > 0) {
+    text.append(part.data(), std::size_t(stream.gcount()));
+    if (text.size() > most_bytes)
+      throw InputError(file.string(), fmt::format("more than {} bytes, which are allowed", most_bytes));
+  }
   if (stream.bad()) throw InputError(file.string(), "cannot be read; a JSON file is expected here");
   return parse_json(text, file.string());
 }
@@ -149,9 +159,9 @@ void JsonView::require_object(const std::vector<std::string>& allowed_keys) cons
   if (!value_->is_object()) reject("an object with the keys " + quoted_list(allowed_keys));
   for (const auto& item : value_->items())
     if (std::find(allowed_keys.begin(), allowed_keys.end(), item.key()) == allowed_keys.end())
-      throw InputError(pointer_ + "/" + escaped(item.key()),
-                       fmt::format("unknown key \"{}\"; allowed: {}{}", item.key(), quoted_list(allowed_keys),
-                                   suggestion(item.key(), allowed_keys)));
+      throw InputError(pointer_ + "/" + escaped(shortened(item.key())),
+                       fmt::format("unknown key \"{}\"; allowed: {}{}", shortened(item.key()),
+                                   quoted_list(allowed_keys), suggestion(item.key(), allowed_keys)));
 }
 
 void JsonView::require_key(const std::string& key) const {
@@ -171,7 +181,7 @@ std::string JsonView::word(const std::vector<std::string>& allowed, std::string_
   if (!value_->is_string()) reject(quoted_list(allowed));
   const auto word = value_->get<std::string>();
   if (std::find(allowed.begin(), allowed.end(), word) == allowed.end())
-    throw InputError(pointer_, fmt::format("unknown {} \"{}\"; allowed: {}{}", what, word,
+    throw InputError(pointer_, fmt::format("unknown {} \"{}\"; allowed: {}{}", what, shortened(word),
                                            quoted_list(allowed), suggestion(word, allowed)));
   return word;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,6 +14,9 @@ namespace liebench {
 
 using Json = nlohmann::ordered_json;  // keeps the order of keys: records read in the order of docs/records.md
 
+// A text as an error message shows it: its first 60 bytes.
+std::string shortened(std::string text);
+
 // The word of `allowed` that a mistyped `word` most likely means; empty where none is near.
 std::string nearest(std::string_view word, const std::vector<std::string>& allowed);
 
@@ -25,8 +29,10 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& al
 // Throws InputError with line and column where the text is not JSON. `source` names it: a file.
 Json parse_json(std::string_view text, const std::string& source);
 
-// Throws MachineError where the file cannot be read, InputError where it is not JSON or larger than 16 MiB.
-Json read_json_file(const std::filesystem::path& file);
+inline constexpr std::uintmax_t largest_json_file = 16u << 20;  // bytes
+
+// Throws InputError where the file cannot be read, is not JSON or larger than that; the size is looked at before it is read.
+Json read_json_file(const std::filesystem::path& file, std::uintmax_t most_bytes = largest_json_file);
 
 // A value together with the place where it stands.
 class JsonView {
