@@ -142,18 +142,6 @@ std::vector<FormulationInfo> formulation_infos() {
   return infos;
 }
 
-// The counts are those of the run only where both went through the same numbers.
-void require_same_path(const RunResult& run, const RunResult& audit, std::string_view formulation,
-                       const RunRequest& request) {
-  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
-  if (run.outcome == audit.outcome && run.end_state.size() == audit.end_state.size() &&
-      std::equal(run.end_state.begin(), run.end_state.end(), audit.end_state.begin(), same))
-    return;
-  throw std::logic_error(
-      fmt::format("{} on {}, h = {}: the audit run took another path than the run that it counts",
-                  request.integrator, formulation, to_double(request.step_size)));
-}
-
 class HeavyTop final : public PreparedProblem {
  public:
   explicit HeavyTop(HeavyTopReference reference) : reference_(std::move(reference)) {}
@@ -163,7 +151,7 @@ class HeavyTop final : public PreparedProblem {
     if (precision == Precision::extended) return entry.extended(request, reference_);
     RunResult result = entry.in_double(request, reference_);
     const RunResult audit = entry.audit(request, reference_);
-    require_same_path(result, audit, formulation, request);
+    detail::require_same_path(result, audit, formulation, request);
     result.cost = audit.cost;
     return result;
   }

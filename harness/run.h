@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "groups/audited_group.h"
@@ -93,5 +94,13 @@ class TimedRun {
   virtual bool follow() = 0;  // all steps after the start, from a copy of the started stepper
   virtual std::uint64_t steps() const = 0;  // of follow()
 };
+
+namespace detail {
+
+// The counts are those of the run only where both went through the same numbers: throws std::logic_error where they did not.
+void require_same_path(const RunResult& run, const RunResult& audit, std::string_view where,
+                       const RunRequest& request);
+
+}  // namespace detail
 
 }  // namespace liebench

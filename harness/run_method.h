@@ -51,6 +51,10 @@ SolutionPoint<S> rounded(const SolutionPoint<typename S::template rebind<Extende
   using Rounded = typename S::template rebind<double>::Group;
   if constexpr (std::is_same_v<T, Extended>) {
     return p;
+  } else if constexpr (SizedLieGroup<typename S::Group>) {
+    const auto in_scalar = [](const auto& v) { return v.template cast<double>().template cast<T>().eval(); };
+    return {T(to_double(p.t)), in_scalar(p.q), in_scalar(p.v), in_scalar(p.acceleration),
+            in_scalar(p.lambda)};
   } else {
     const auto in_scalar = [](const auto& v) { return v.template cast<double>().template cast<T>().eval(); };
     return {.t = T(to_double(p.t)),

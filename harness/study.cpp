@@ -10,6 +10,7 @@
 
 #include "groups/decimal.h"
 #include "harness/errors.h"
+#include "harness/scene_problem.h"
 
 namespace liebench {
 
@@ -95,7 +96,13 @@ std::vector<ProblemChoice> read_problems(const JsonView& list) {
   std::vector<ProblemChoice> choices;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const JsonView entry = list[i];
-    entry.require_object({"name", "formulation", "parameters"});
+    if (entry.value().is_object() && entry.has("scene")) {
+      entry.require_object({"scene"});
+      const ProblemInfo& scene = scene_problem(entry["scene"].text());
+      choices.push_back({&scene, &scene.formulations.front(), scene.complete(entry)});
+      continue;
+    }
+    entry.require_object({"name", "formulation", "parameters", "scene"});
     entry.require_key("name");
     const ProblemInfo& problem = by_name(problems(), entry["name"], "problem");
     std::vector<const FormulationInfo*> formulations;

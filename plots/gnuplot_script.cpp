@@ -249,14 +249,16 @@ std::string panel_commands(const Layout& layout, const Panel& panel, const Panel
   return result + "unset object\nunset arrow\nunset label\n";
 }
 
-std::string terminal_commands(const std::filesystem::path& output, const Layout& layout) {
+}  // namespace
+
+std::string terminal_commands(const std::filesystem::path& output, double width, double height) {
   const std::string ending = output.extension().string();
   // DejaVu comes with gnuplot-nox's own dependencies and has Greek; fontconfig replaces it where it is
   // missing. An SVG is set in the reader's fonts.
   if (ending == ".svg") {
     return fmt::format(
         "set terminal svg enhanced font 'sans-serif,{}' size {:.0f},{:.0f} fixed background '#ffffff'\n",
-        font_size, layout.width, layout.height);
+        font_size, width, height);
   }
   // Both cairo terminals set a font larger than its name says, by 4/3, and draw marks smaller than the SVG's.
   if (ending == ".pdf") {
@@ -264,7 +266,7 @@ std::string terminal_commands(const std::filesystem::path& output, const Layout&
         "set terminal pdfcairo enhanced color font 'DejaVu Sans,{}' fontscale 0.75 size {:.4f}in,{:.4f}in "
         "linewidth "
         "1.7 pointscale 1.25 background '#ffffff'\n",
-        font_size, layout.width / 72, layout.height / 72);
+        font_size, width / 72, height / 72);
   }
   if (ending == ".png") {
     constexpr double pixels = 2.5;
@@ -272,13 +274,11 @@ std::string terminal_commands(const std::filesystem::path& output, const Layout&
         "set terminal pngcairo enhanced color font 'DejaVu Sans,{}' fontscale {} size {:.0f},{:.0f} "
         "linewidth {} "
         "pointscale {} background '#ffffff'\n",
-        font_size, 0.75 * pixels, pixels * layout.width, pixels * layout.height, pixels, 1.25 * pixels);
+        font_size, 0.75 * pixels, pixels * width, pixels * height, pixels, 1.25 * pixels);
   }
   throw std::invalid_argument(
       fmt::format("'{}': a figure's name ends in .svg, .pdf or .png", output.string()));
 }
-
-}  // namespace
 
 std::string gnuplot_script(const Figure& figure, std::span<const std::filesystem::path> outputs) {
   return gnuplot_script(figure, outputs, outputs);
@@ -306,7 +306,7 @@ std::string gnuplot_script(const Figure& figure, std::span<const std::filesystem
   body += legend_commands(layout, layout.legend, layout.legend_place);
   body += "unset multiplot\n";
   for (std::size_t index = 0; index < outputs.size(); ++index) {
-    script += terminal_commands(outputs[index], layout);
+    script += terminal_commands(outputs[index], layout.width, layout.height);
     script += fmt::format("set output {}\n", gnuplot_literal(written_to[index].string()));
     script += body + "unset output\nreset\n";
   }

@@ -16,4 +16,7 @@ std::string gnuplot_script(const Figure& figure, std::span<const std::filesystem
 std::string gnuplot_script(const Figure& figure, std::span<const std::filesystem::path> outputs,
                            std::span<const std::filesystem::path> written_to);
 
+/// The command that makes `output`, `width` by `height` points, by its ending. Throws std::invalid_argument for another one.
+std::string terminal_commands(const std::filesystem::path& output, double width, double height);
+
 }  // namespace liebench

@@ -108,7 +108,7 @@ class ModelBuilder {
     };
     const Vector p_a = vector(j.point_a), p_b = vector(j.point_b);
     const Vector n_a = unit(j.axis_a), n_b = unit(j.axis_b), e_a = unit(j.across_a), e_b = unit(j.across_b);
-    const Vector f_a = n_a.cross(e_a), f_b = n_b.cross(e_b);
+    const Vector f_a = n_a.cross(e_a);
     const auto point = [&] { add(j.a, j.b, Coincidence<T>{p_a, p_b}); };
     const auto perpendicular = [&](const Vector& n, const Vector& w) {
       add(j.a, j.b, Perpendicular<T>{n, w});

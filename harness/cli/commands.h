@@ -13,6 +13,7 @@ void add_table(CLI::App& app, int& status);
 void add_plot(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_simulate(CLI::App& app, int& status);
+void add_effects(CLI::App& app, int& status);
 void add_list(CLI::App& app, int& status);
 void add_describe(CLI::App& app, int& status);
 

@@ -1,0 +1,99 @@
+#include "harness/cli/scene_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "harness/errors.h"
+#include "harness/methods.h"
+#include "harness/run_method.h"
+#include "harness/scene_reader.h"
+#include "harness/study.h"
+
+namespace liebench {
+
+namespace {
+
+// "k=3", "form=stabilized_index2": values as in a study.
+MethodOptions method_options(const std::string& integrator, const std::vector<std::string>& given,
+                             bool constrained) {
+  std::vector<std::string> names;
+  for (const MethodInfo& method : methods()) names.emplace_back(method.name);
+  const auto method = std::find_if(methods().begin(), methods().end(),
+                                   [&](const MethodInfo& m) { return m.name == integrator; });
+  if (method == methods().end())
+    throw InputError("--integrator", fmt::format("\"{}\" is not an integrator; allowed: {}{}", integrator,
+                                                 quoted_list(names), suggestion(integrator, names)));
+  std::vector<std::string> keys;
+  for (const OptionInfo& info : method->options) keys.emplace_back(info.name);
+  OptionValues values;
+  for (const OptionInfo& info : method->options) values.set(info.name, option_default(info, true));
+  for (const std::string& text : given) {
+    const std::string key = text.substr(0, text.find('='));
+    const auto info = std::find_if(method->options.begin(), method->options.end(),
+                                   [&](const OptionInfo& o) { return o.name == key; });
+    if (info == method->options.end() || text.size() == key.size())
+      throw InputError("--option", fmt::format("\"{}\" is not allowed; allowed: KEY=VALUE with a key of {}{}",
+                                               text, quoted_list(keys), suggestion(key, keys)));
+    const std::string word = text.substr(key.size() + 1);
+    Json value = Json::parse(word, nullptr, false);
+    if (value.is_discarded()) value = word;
+    values.set(key, option_value(*info, JsonView(value, "--option " + key)));
+  }
+  for (const OptionInfo& info : method->options)
+    if (!applies(info, constrained, values)) values.erase(info.name);
+  RunRequest request;
+  request.integrator = integrator;
+  request.options = values;
+  return detail::options_of(request);
+}
+
+}  // namespace
+
+void add_scene_plan(CLI::App& command, ScenePlanOptions& options) {
+  command.add_option("scene", options.scene, "the scene, a JSON file (docs/scenes.md)")
+      ->required()
+      ->type_name("SCENE.json");
+  command.add_option("--integrator", options.integrator, "the method; liebench list integrators")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
+      .add_option("--option", options.options,
+                  "an option of the method, as often as needed; liebench describe NAME")
+      ->type_name("KEY=VALUE");
+  command.add_option("--h", options.step_size, "step size in s; made smaller until it divides the interval")
+      ->type_name("H")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--t-end", options.t_end, "end of the interval in s; the scene's own where absent")
+      ->type_name("T")
+      ->check(CLI::PositiveNumber);
+}
+
+ScenePlan plan_scene(const ScenePlanOptions& options) {
+  const SceneDescription described = read_scene_file(options.scene);
+  ScenePlan result{assemble(described, options.scene), {}};
+  const AssembledScene& scene = result.scene;
+  if (scene.moved())
+    fmt::print(
+        stderr,
+        "the joints do not quite fit (joint \"{}\": {:.3g}); bodies were moved as little as possible\n",
+        scene.gap_joint, scene.gap_before);
+  if (!scene.redundant_joints.empty())
+    fmt::print(stderr, "left out, for other joints imply it: {} of the constraints of {}\n",
+               std::count(scene.implied.begin(), scene.implied.end(), true),
+               quoted_list(scene.redundant_joints));
+  const double t_end = options.t_end > 0.0 ? options.t_end : described.duration;
+  const double steps = std::ceil(t_end / options.step_size * (1.0 - 1e-12));
+  if (!(steps <= most_steps))
+    throw InputError("--h", fmt::format("{} would take {:.3g} steps; at most {:.0e} are allowed",
+                                        options.step_size, steps, most_steps));
+  result.plan.method = method_options(options.integrator, options.options, !multiplier_names(scene).empty());
+  result.plan.step_size = t_end / steps;
+  result.plan.steps = std::uint64_t(steps);
+  return result;
+}
+
+}  // namespace liebench

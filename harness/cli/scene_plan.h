@@ -1,0 +1,33 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "harness/scene_assembly.h"
+#include "harness/simulate.h"
+
+// What the commands that run a scene have in common: the scene, the method and the steps.
+
+namespace liebench {
+
+struct ScenePlanOptions {
+  std::string scene;
+  std::string integrator = "bliedf2nd";
+  std::vector<std::string> options;
+  double step_size = 1e-3;
+  double t_end = 0.0;  // 0: the scene's own
+};
+
+struct ScenePlan {
+  AssembledScene scene;
+  SimulationPlan plan;
+};
+
+void add_scene_plan(CLI::App& command, ScenePlanOptions& options);
+
+// Reads and assembles the scene and checks method and steps; says on standard error what was done to the scene. Throws
+// InputError.
+ScenePlan plan_scene(const ScenePlanOptions& options);
+
+}  // namespace liebench

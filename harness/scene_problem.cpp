@@ -1,0 +1,208 @@
+#include "harness/scene_problem.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "harness/references/scene_reference.h"
+#include "harness/run_method.h"
+#include "harness/scene_assembly.h"
+#include "harness/scene_reader.h"
+#include "harness/scene_visit.h"
+
+namespace liebench {
+
+namespace {
+
+// Compares a running method with the reference and keeps the norms; T is the scalar of the run.
+template <class T>
+class SceneMonitor {
+ public:
+  using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+
+  SceneMonitor(const AssembledScene& scene, const SceneReference& reference, std::uint64_t steps)
+      : system_(make_scene_model<T>(scene.scene, scene.implied)),
+        reference_(reference),
+        steps_(steps),
+        stride_(std::max<std::uint64_t>(1, steps / 1000)) {
+    const Vector q = system_.initial_configuration(), v = system_.initial_velocity();
+    energy_ = to_double(system_.energy(q, v));
+    angular_momentum_ = to_double(system_.angular_momentum(q, v));
+  }
+
+  [[gnu::noinline]] void observe(std::uint64_t n, const Vector& q, const Vector& v, const Vector& lambda,
+                                 const Extended& t) {
+    using Wide = SceneReference::System::Vector;
+    const SceneReference::Point exact = reference_.at(t);
+    const Wide wide_q = q.template cast<Extended>(), wide_v = v.template cast<Extended>();
+    const Wide wide_lambda = lambda.template cast<Extended>();
+    take(q_, reference_.scene().group().separation(wide_q, exact.q).template lpNorm<Eigen::Infinity>());
+    take(v_, detail::max_norm(Wide(wide_v - exact.v)));
+    if (lambda.size() > 0) take(lambda_, detail::max_norm(Wide(wide_lambda - exact.lambda)));
+    if (n == steps_) {
+      q_.end_relative = detail::relative_distance(represented(wide_q), represented(exact.q));
+      v_.end_relative = detail::relative_distance(wide_v, exact.v);
+      if (lambda.size() > 0) lambda_.end_relative = detail::relative_distance(wide_lambda, exact.lambda);
+    }
+    if (n % stride_ == 0 || n == steps_) observe_drift(q, v, t);
+  }
+
+  void report(RunResult& result) const {
+    result.q = q_;
+    result.v = v_;
+    if (system_.multipliers() > 0) result.lambda = lambda_;
+    result.drift = drift_;
+  }
+
+ private:
+  static void take(ErrorNorms& norms, double error) {
+    norms.end_absolute = error;
+    norms.max_absolute = std::max(norms.max_absolute, error);
+  }
+  // x and R of all bodies, one below the other.
+  SceneReference::System::Vector represented(const SceneReference::System::Vector& q) const {
+    const auto& bodies = reference_.scene().model().bodies;
+    SceneReference::System::Vector all(Eigen::Index(12 * bodies.size()));
+    Eigen::Index row = 0;
+    for (const Body<Extended>& body : bodies) {
+      RigidState<Extended> s;
+      body.read_pose(q, s);
+      all.segment<3>(row) = s.x;
+      all.segment<9>(row + 3) = s.R.reshaped();
+      row += 12;
+    }
+    return all;
+  }
+  void observe_drift(const Vector& q, const Vector& v, const Extended& t) {
+    T time;
+    if constexpr (std::is_same_v<T, Extended>)
+      time = t;
+    else
+      time = T(to_double(t));
+    drift_.energy = std::max(drift_.energy, std::abs(to_double(system_.energy(q, v)) - energy_));
+    drift_.angular_momentum = std::max(
+        drift_.angular_momentum, std::abs(to_double(system_.angular_momentum(q, v)) - angular_momentum_));
+    drift_.group = std::max(drift_.group, to_double(system_.group().defect(q)));
+    if (system_.multipliers() == 0) return;
+    drift_.position_constraint =
+        std::max(drift_.position_constraint.value_or(0.0), detail::max_norm(system_.constraint(time, q)));
+    drift_.velocity_constraint = std::max(drift_.velocity_constraint.value_or(0.0),
+                                          detail::max_norm(system_.constraint_rate(time, q, v)));
+  }
+
+  SceneSystem<T> system_;
+  const SceneReference& reference_;
+  std::uint64_t steps_, stride_;
+  double energy_ = 0.0, angular_momentum_ = 0.0;
+  ErrorNorms q_, v_, lambda_;
+  Drift drift_;
+};
+
+class PreparedScene final : public PreparedProblem {
+ public:
+  PreparedScene(const AssembledScene& scene, double duration) : scene_(scene), reference_(scene, duration) {}
+
+  RunResult run(std::string_view, Precision precision, const RunRequest& request) const override {
+    if (precision == Precision::extended) return compared<Extended>(request, run_time_system<Extended>());
+    RunResult result =
+        with_scene(scene_, [&](const auto& system) { return compared<double>(request, system); });
+    RunResult audit;
+    const auto counted = any_stepper(detail::options_of(request), run_time_system<Counted>());
+    detail::follow(
+        *counted, request, exact<RunTimeSystem<Counted>>(), [](const auto&...) {}, audit);
+    detail::require_same_path(result, audit, "the scene " + scene_.scene.name, request);
+    result.cost = audit.cost;
+    return result;
+  }
+  std::unique_ptr<TimedRun> timed(std::string_view, const RunRequest& request) const override {
+    return with_scene(scene_, [&](const auto& system) -> std::unique_ptr<TimedRun> {
+      using S = std::remove_cvref_t<decltype(system)>;
+      return timed_run(request, system, exact<S>());
+    });
+  }
+  std::string reference_method() const override { return reference_.method(); }
+  double reference_error() const override { return reference_.error_estimate(); }
+
+ private:
+  template <class T>
+  RunTimeSystem<T> run_time_system() const {
+    using L = LinearScalar<T>;
+    return RunTimeSystem<T>(std::make_shared<ErasedBlockSystem<SceneSystem<T>>>(
+        SceneSystem<T>(make_scene_model<T>(scene_.scene, scene_.implied)),
+        SceneSystem<L>(make_scene_model<L>(scene_.scene, scene_.implied))));
+  }
+  // The reference as a function of time, in the vectors of the system's twin in extended precision.
+  template <class S>
+  auto exact() const {
+    using Exact = typename S::template rebind<Extended>;
+    return [this](const Extended& t) {
+      const SceneReference::Point p = reference_.at(t);
+      return SolutionPoint<Exact>{p.t, p.q, p.v, p.acceleration, p.lambda};
+    };
+  }
+  template <class T, class S>
+  RunResult compared(const RunRequest& request, const S& system) const {
+    RunResult result;
+    SceneMonitor<T> monitor(scene_, reference_, request.steps);
+    const auto observe = [&](std::uint64_t n, const auto& q, const auto& v, const auto& lambda) {
+      monitor.observe(n, q, v, lambda, request.step_size * Extended(double(n)));
+    };
+    const auto stepper = any_stepper(detail::options_of(request), system);
+    detail::follow(*stepper, request, exact<S>(), observe, result);
+    if (result.outcome == Outcome::ok) monitor.report(result);
+    return result;
+  }
+
+  AssembledScene scene_;
+  SceneReference reference_;
+};
+
+// Holds the text that a ProblemInfo points to.
+struct SceneEntry {
+  AssembledScene scene;
+  std::string name, summary;
+  ProblemInfo info;
+};
+
+std::unique_ptr<SceneEntry> make_entry(const std::string& file) {
+  auto entry = std::make_unique<SceneEntry>();
+  const Json content = read_json_file(file, largest_scene_file);
+  entry->scene = assemble(read_scene_file(file), file);
+  entry->name = entry->scene.scene.name;
+  entry->summary = entry->scene.scene.summary;
+  const std::string text = content.dump();
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  Json parameters;
+  parameters["content"] = fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  const auto rows = int(make_scene_model<double>(entry->scene.scene, entry->scene.implied)->rows);
+  const AssembledScene* scene = &entry->scene;
+  entry->info = {.name = entry->name,
+                 .summary = entry->summary,
+                 .formulations = {{.name = "scene", .constraints = rows, .summary = "as its file has it"}},
+                 .parameters = {},
+                 .complete = [parameters](const JsonView&) { return parameters; },
+                 .obstacle = [](const Json&, double) { return std::string(); },
+                 .prepare = [scene](const Json&, double duration, const ReferenceCache&,
+                                    const MessageCallback&) -> std::shared_ptr<const PreparedProblem> {
+                   return std::make_shared<PreparedScene>(*scene, duration);
+                 }};
+  return entry;
+}
+
+}  // namespace
+
+const ProblemInfo& scene_problem(const std::string& file) {
+  static std::mutex mutex;
+  static std::map<std::string, std::unique_ptr<SceneEntry>> entries;
+  const std::lock_guard lock(mutex);
+  std::unique_ptr<SceneEntry>& entry = entries[file];
+  if (!entry) entry = make_entry(file);
+  return entry->info;
+}
+
+}  // namespace liebench

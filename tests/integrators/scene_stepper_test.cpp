@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/instances/heavy_top_steppers.h"
+#include "harness/instances/scene_steppers.h"
+#include "problems/heavy_top.h"
+#include "tests/support/sample_scenes.h"
+
+namespace liebench {
+namespace {
+
+// One of each kind of closure and Newton matrix.
+std::vector<MethodOptions> some_methods() {
+  std::vector<MethodOptions> methods;
+  for (const Form form : {Form::index3, Form::stabilized_index2}) {
+    const bool modified = form == Form::index3;
+    methods.emplace_back(BLieDF2nd::Options{.k = 3, .modified_start = modified, .form = form});
+    methods.emplace_back(BLieDF2nd::Options{
+        .k = 5, .correction = Correction::implicit_term, .modified_start = modified, .form = form});
+    methods.emplace_back(GeneralizedAlpha::Options{.modified_start = modified, .form = form});
+    methods.emplace_back(FaltinsenBdf::Options{.k = 3, .modified_start = modified, .form = form});
+    methods.emplace_back(FaltinsenBdf::Options{
+        .k = 4, .variant = FaltinsenBdf::Variant::bch, .modified_start = modified, .form = form});
+  }
+  return methods;
+}
+
+template <class S>
+std::unique_ptr<AnyStepper<S>> after(const MethodOptions& options, const S& system, double h, int steps) {
+  using T = typename S::Scalar;
+  auto stepper = any_stepper(options, system);
+  std::vector<SolutionPoint<S>> points(std::size_t(stepper->starting_points()));
+  EXPECT_EQ(stepper->start_itself(T(h), points).outcome, Outcome::ok);
+  EXPECT_EQ(stepper->advance(std::uint64_t(steps)).outcome, Outcome::ok);
+  return stepper;
+}
+
+template <class T>
+RunTimeSystem<T> run_time_scene(const SceneDescription& scene) {
+  using S = SceneSystem<T>;
+  using L = SceneSystem<LinearScalar<T>>;
+  return RunTimeSystem<T>(std::make_shared<ErasedBlockSystem<S>>(
+      S(make_scene_model<T>(scene)), L(make_scene_model<LinearScalar<T>>(scene))));
+}
+
+// In extended precision, after 40 steps of the slow top: round-off of 1e-32 grows by 1 / h^2 in the index-3 form.
+template <template <class> class System>
+void expect_heavy_top(BodyKind kind) {
+  HeavyTopParameters p;
+  p.angular_velocity = {0.0, 15.0, -0.461538};
+  const Audited<System<Extended>> top{System<Extended>(p)};
+  const auto scene = run_time_scene<Extended>(heavy_top_scene(kind, p));
+  for (const MethodOptions& options : some_methods()) {
+    const auto expected = after(options, top, 0x1p-9, 40);
+    const auto actual = after(options, scene, 0x1p-9, 40);
+    const auto q = System<Extended>::Group::stacked(expected->configuration());
+    const double difference = to_double((actual->configuration() - q).norm());
+    EXPECT_LE(difference, 1e-24) << int(kind) << ' ' << options.index();
+    EXPECT_LE(to_double((actual->velocity() - expected->velocity()).norm()), 1e-22)
+        << int(kind) << ' ' << options.index();
+    // The force at the tip, in the inertial and in the body frame, both with the sign of its constraint.
+    EXPECT_NEAR(to_double(actual->multipliers().norm()), to_double(expected->multipliers().norm()), 1e-18);
+  }
+}
+
+TEST(SceneStepper, OneTopOnASphericalJointIsTheHeavyTop) {
+  expect_heavy_top<HeavyTopR3xSO3>(BodyKind::r3xso3);
+  expect_heavy_top<HeavyTopR3xS3>(BodyKind::r3xs3);
+  expect_heavy_top<HeavyTopSE3>(BodyKind::se3);
+  expect_heavy_top<HeavyTopUDQ>(BodyKind::udq);
+}
+
+// Two rods on a spherical and a revolute joint, with a spring: every method in double, without and with the heap, and counted.
+SceneDescription two_rods() {
+  SceneDescription scene = two_bodies(BodyKind::r3xso3, BodyKind::se3);
+  const std::array<Eigen::Vector3d, 2> places{Eigen::Vector3d(0.5, 0.0, 0.0), Eigen::Vector3d(1.5, 0.0, 0.0)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    scene.bodies[i].position = places[i];
+    scene.bodies[i].orientation = {1.0, 0.0, 0.0, 0.0};
+    scene.bodies[i].velocity.setZero();
+    scene.bodies[i].angular_velocity.setZero();
+  }
+  JointDescription pin{.name = "pin", .kind = JointKind::spherical, .a = -1, .b = 0};
+  pin.point_b = {-0.5, 0.0, 0.0};
+  JointDescription hinge{.name = "hinge", .kind = JointKind::revolute, .a = 0, .b = 1};
+  hinge.point_a = {0.5, 0.0, 0.0};
+  hinge.point_b = {-0.5, 0.0, 0.0};
+  hinge.axis_a = hinge.axis_b = {0.0, 1.0, 0.0};
+  hinge.across_a = hinge.across_b = {1.0, 0.0, 0.0};
+  scene.joints = {pin, hinge};
+  for (int i = 0; i < 2; ++i)
+    std::get<std::vector<Placed<UniformGravity<double>>>>(scene.effects)
+        .push_back({UniformGravity<double>{{0.3, 0.0, -9.81}}, i, -1});
+  return scene;
+}
+
+template <class A, class B>
+void expect_same_bits(const A& a, const B& b, const std::string& text) {
+  ASSERT_EQ(a.size(), b.size());
+  for (Eigen::Index i = 0; i < a.size(); ++i) EXPECT_EQ(to_double(a(i)), to_double(b(i))) << text << ' ' << i;
+}
+
+TEST(SceneStepper, StorageAndCountingChangeNoBit) {
+  const SceneDescription scene = two_rods();
+  const auto model = make_scene_model<double>(scene);
+  for (const MethodOptions& options : some_methods()) {
+    const auto small = after(options, SmallScene(model), 0.01, 30);
+    const auto large = after(options, Scene(model), 0.01, 30);
+    const auto counted = after(options, run_time_scene<Counted>(scene), 0.01, 30);
+    const std::string text = std::to_string(options.index());
+    expect_same_bits(small->configuration(), large->configuration(), text);
+    expect_same_bits(small->configuration(), counted->configuration(), text + " counted");
+    expect_same_bits(small->multipliers(), counted->multipliers(), text + " counted");
+  }
+}
+
+TEST(SceneStepper, EnergyOfTheDoublePendulumIsKeptToTheOrderOfTheMethod) {
+  const Scene system(make_scene_model<double>(two_rods()));
+  const double before = system.energy(system.initial_configuration(), system.initial_velocity());
+  std::vector<double> drifts;
+  for (const double h : {0.002, 0.001}) {
+    const auto stepper = after(BLieDF2nd::Options{.k = 4, .form = Form::stabilized_index2}, system, h,
+                               int(std::lround(0.5 / h)));
+    drifts.push_back(std::abs(system.energy(stepper->configuration(), stepper->velocity()) - before));
+    EXPECT_LE(system.constraint(0.0, stepper->configuration()).norm(), 1e-14);
+  }
+  // Order 4, or better where the leading term is small.
+  EXPECT_LE(drifts[1], drifts[0] / 12.0);
+  EXPECT_LE(drifts[1], 1e-6);
+}
+
+}  // namespace
+}  // namespace liebench
