@@ -208,7 +208,8 @@ constexpr Eigen::Index most_rows_for_rank = 600;
 }  // namespace
 
 AssembledScene assemble(const SceneDescription& given, const std::string& place) {
-  AssembledScene result{.scene = given};
+  AssembledScene result;
+  result.scene = given;
   auto model = make_scene_model<double>(given);
   const std::vector<std::string> names = joint_of_rows(given);
   const Gap before = largest_gap(System(model), model->q);

@@ -104,31 +104,6 @@ class SceneMonitor {
 };
 
 class PreparedScene final : public PreparedProblem {
- public:
-  PreparedScene(const AssembledScene& scene, double duration) : scene_(scene), reference_(scene, duration) {}
-
-  RunResult run(std::string_view, Precision precision, const RunRequest& request) const override {
-    if (precision == Precision::extended) return compared<Extended>(request, run_time_system<Extended>());
-    RunResult result =
-        with_scene(scene_, [&](const auto& system) { return compared<double>(request, system); });
-    RunResult audit;
-    const auto counted = any_stepper(detail::options_of(request), run_time_system<Counted>());
-    detail::follow(
-        *counted, request, exact<RunTimeSystem<Counted>>(), [](const auto&...) {}, audit);
-    detail::require_same_path(result, audit, "the scene " + scene_.scene.name, request);
-    result.cost = audit.cost;
-    return result;
-  }
-  std::unique_ptr<TimedRun> timed(std::string_view, const RunRequest& request) const override {
-    return with_scene(scene_, [&](const auto& system) -> std::unique_ptr<TimedRun> {
-      using S = std::remove_cvref_t<decltype(system)>;
-      return timed_run(request, system, exact<S>());
-    });
-  }
-  std::string reference_method() const override { return reference_.method(); }
-  double reference_error() const override { return reference_.error_estimate(); }
-
- private:
   template <class T>
   RunTimeSystem<T> run_time_system() const {
     using L = LinearScalar<T>;
@@ -158,6 +133,31 @@ class PreparedScene final : public PreparedProblem {
     return result;
   }
 
+ public:
+  PreparedScene(const AssembledScene& scene, double duration) : scene_(scene), reference_(scene, duration) {}
+
+  RunResult run(std::string_view, Precision precision, const RunRequest& request) const override {
+    if (precision == Precision::extended) return compared<Extended>(request, run_time_system<Extended>());
+    RunResult result =
+        with_scene(scene_, [&](const auto& system) { return compared<double>(request, system); });
+    RunResult audit;
+    const auto counted = any_stepper(detail::options_of(request), run_time_system<Counted>());
+    detail::follow(
+        *counted, request, exact<RunTimeSystem<Counted>>(), [](const auto&...) {}, audit);
+    detail::require_same_path(result, audit, "the scene " + scene_.scene.name, request);
+    result.cost = audit.cost;
+    return result;
+  }
+  std::unique_ptr<TimedRun> timed(std::string_view, const RunRequest& request) const override {
+    return with_scene(scene_, [&](const auto& system) -> std::unique_ptr<TimedRun> {
+      using S = std::remove_cvref_t<decltype(system)>;
+      return timed_run(request, system, exact<S>());
+    });
+  }
+  std::string reference_method() const override { return reference_.method(); }
+  double reference_error() const override { return reference_.error_estimate(); }
+
+ private:
   AssembledScene scene_;
   SceneReference reference_;
 };
