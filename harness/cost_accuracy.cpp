@@ -18,36 +18,31 @@ struct Run {
   bool next_coarser_failed = false;
 };
 
-Value positive(const Json& record, const char* section, const char* key) {
-  const auto found = record.find(section);
-  if (found == record.end()) return {};
-  const auto value = found->find(key);
-  if (value == found->end() || !value->is_number() || value->get<double>() <= 0) return {};
-  return value->get<double>();
+Value positive(const Value& value) {
+  return value && *value > 0 ? value : Value();
 }
 
-Value positive_error(const Json& record, const Quantity& quantity) {
-  const Value error = error_of(record, quantity);
-  return error && std::isfinite(*error) && *error > 0 ? error : Value();
+Value positive_error(const RecordRow& record, const Quantity& quantity) {
+  return positive(error_of(record, quantity));
 }
 
 // Runs by falling step size. One without a positive error says nothing on a logarithmic scale.
 std::vector<Run> runs_of(const Curve& curve, const Quantity& quantity) {
   std::vector<Run> runs;
   bool failed = false;
-  for (const Json* record : curve.records) {
-    if (record->at("outcome") != "ok") {
+  for (const RecordRow* record : curve.records) {
+    if (!record->ended_well()) {
       failed = true;
       continue;
     }
     const Value error = positive_error(*record, quantity);
-    const double h = record->at("step_size").get<double>();
+    const double h = record->step_size();
     if (!error || (!runs.empty() && runs.back().step_size == h)) continue;
     Run run{.step_size = h, .error = *error, .next_coarser_failed = failed};
-    run.steps = record->at("steps").get<double>();
-    run.residuals = positive(*record, "cost", "residuals");
-    run.flops = positive(*record, "cost", "flops");
-    if (const Value ns = positive(*record, "time", "total_ns")) run.time_ms = *ns * 1e-6;
+    run.steps = record->steps();
+    run.residuals = positive((*record)[record_number("cost/residuals")]);
+    run.flops = positive((*record)[record_number("cost/flops")]);
+    if (const Value ns = positive((*record)[record_number("time/total_ns")])) run.time_ms = *ns * 1e-6;
     run.relative = positive_error(*record, {quantity.component, "end_relative"});
     const Value absolute = positive_error(*record, {quantity.component, "end_absolute"});
     // |e| / (1 + |y|) with |y| = |e| / relative error.
@@ -156,7 +151,7 @@ CostEntry cost_of_error(const Curve& curve, const Quantity& quantity, double tar
   return entry_at(curve.label, runs_of(curve, quantity), target);
 }
 
-Table cost_accuracy_table(const std::vector<Json>& records, const Quantity& quantity,
+Table cost_accuracy_table(const std::vector<RecordRow>& records, const Quantity& quantity,
                           const std::vector<double>& targets) {
   std::vector<std::pair<std::string, std::vector<Run>>> all;
   for (const Curve& curve : curves(records))

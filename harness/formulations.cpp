@@ -18,11 +18,6 @@ const Quantity quantity{"q", "max_absolute"};
 constexpr double common_step = 1e-3;   // s
 constexpr double common_error = 1e-3;  // m, rad
 
-std::string form_word(const Json& record) {
-  const Json& options = record.at("options");
-  return options.contains("form") ? options.at("form").get<std::string>() : "";
-}
-
 // One value for each method (row) and formulation (column).
 using Values = std::map<std::string, std::map<std::string, double>>;
 
@@ -65,7 +60,7 @@ std::optional<double> cost_at(const std::vector<CostPoint>& points, double targe
   return std::nullopt;
 }
 
-std::string formulations_report(const std::vector<Json>& records) {
+std::string formulations_report(const std::vector<RecordRow>& records) {
   struct Group {
     std::vector<std::string> methods, formulations;
     Values errors, operations;
@@ -74,9 +69,9 @@ std::string formulations_report(const std::vector<Json>& records) {
       {"", "Unconstrained"}, {"index3", "Index 3"}, {"stabilized_index2", "Stabilized index 2"}};
   std::map<std::string, Group> groups;
   for (const Curve& curve : curves(records)) {
-    Group& group = groups[form_word(*curve.records.front())];
-    const std::string formulation = curve.identity.at("formulation").get<std::string>();
-    const std::string method = method_name(curve.identity);
+    Group& group = groups[curve.identity->form()];
+    const std::string& formulation = curve.identity->formulation;
+    const std::string method = method_name(*curve.identity);
     const auto remember = [](std::vector<std::string>& list, const std::string& name) {
       if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
     };
@@ -85,11 +80,11 @@ std::string formulations_report(const std::vector<Json>& records) {
     group.errors[method];
     group.operations[method];
     std::vector<CostPoint> points;
-    for (const Json* record : curve.records) {
+    for (const RecordRow* record : curve.records) {
       const auto error = error_of(*record, quantity);
       if (!error) continue;
-      points.push_back({record->at("cost").at("flops").get<double>(), *error});
-      if (std::abs(record->at("requested_step_size").get<double>() - common_step) < 1e-9)
+      points.push_back({(*record)[record_number("cost/flops")].value(), *error});
+      if (std::abs((*record)[record_number("requested_step_size")].value() - common_step) < 1e-9)
         group.errors[method][formulation] = *error;
     }
     if (const auto cost = cost_at(points, common_error)) group.operations[method][formulation] = *cost;

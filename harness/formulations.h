@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/strict_json.h"
+#include "harness/record_row.h"
 
 // The formulations of the heavy top against each other: docs/formulations.md is this text.
 
@@ -19,6 +19,6 @@ struct CostPoint {
 std::optional<double> cost_at(const std::vector<CostPoint>& points, double target);
 
 // Tables of the error at equal step and of the operations at equal error, a row a method, a column a formulation.
-std::string formulations_report(const std::vector<Json>& records);
+std::string formulations_report(const std::vector<RecordRow>& records);
 
 }  // namespace liebench

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <string_view>
 #include <thread>
 
 #include "harness/select.h"
@@ -19,7 +20,7 @@ std::vector<Row> order_rows(const Curve& curve) {
     for (const char* norm : {"end_relative", "max_absolute"}) {
       const Quantity quantity{component, norm};
       if (std::none_of(curve.records.begin(), curve.records.end(),
-                       [&](const Json* record) { return error_of(*record, quantity).has_value(); }))
+                       [&](const RecordRow* record) { return error_of(*record, quantity).has_value(); }))
         continue;
       const OrderFit fit = fit_curve(curve, quantity);
       if (fit.estimate)
@@ -34,7 +35,7 @@ std::vector<Row> order_rows(const Curve& curve) {
 
 }  // namespace
 
-Table orders_table(const std::vector<Json>& records) {
+Table orders_table(const std::vector<RecordRow>& records) {
   Table table("Observed orders of convergence; window and uncertainty by the rule of docs/orders.md",
               {{.header = "curve"},
                {.header = "error"},
@@ -62,7 +63,7 @@ Table orders_table(const std::vector<Json>& records) {
   return table;
 }
 
-Table outcomes_table(const std::vector<Json>& records) {
+Table outcomes_table(const std::vector<RecordRow>& records) {
   Table table("Outcomes", {{.header = "curve"},
                            {.header = "outcome"},
                            {.header = "runs", .kind = ColumnKind::integer, .alignment = Alignment::right},
@@ -79,24 +80,22 @@ Table outcomes_table(const std::vector<Json>& records) {
                             .notation = Notation::scientific},
                            {.header = "message"}});
   for (const Curve& curve : curves(records)) {
-    std::map<std::string, std::vector<const Json*>> by_outcome;
-    for (const Json* record : curve.records)
-      by_outcome[record->at("outcome").get<std::string>()].push_back(record);
+    std::map<std::string_view, std::vector<const RecordRow*>> by_outcome;
+    for (const RecordRow* record : curve.records) by_outcome[record->outcome].push_back(record);
     for (const auto& [outcome, runs] : by_outcome) {
-      const double largest = runs.front()->at("step_size").get<double>();
-      const double smallest = runs.back()->at("step_size").get<double>();
+      const double largest = runs.front()->step_size();
+      const double smallest = runs.back()->step_size();
       const std::string sizes = runs.size() == 1 ? fmt::format("{:.3g}", largest)
                                                  : fmt::format("{:.3g} to {:.3g}", largest, smallest);
       Cell time, step, residual, message;
-      if (const auto failure = runs.front()->find("failure"); failure != runs.front()->end()) {
-        time = failure->at("time").get<double>();
-        message = failure->at("message").get<std::string>();
-        if (failure->contains("step") && failure->at("step").is_number_integer())
-          step = failure->at("step").get<std::int64_t>();
-        if (failure->contains("residual") && failure->at("residual").is_number())
-          residual = failure->at("residual").get<double>();
+      if (const auto& failure = runs.front()->failure) {
+        time = failure->time;
+        message = failure->message;
+        if (failure->step) step = *failure->step;
+        if (failure->residual) residual = *failure->residual;
       }
-      table.add_row({curve.label, outcome, std::int64_t(runs.size()), sizes, time, step, residual, message});
+      table.add_row({curve.label, std::string(outcome), std::int64_t(runs.size()), sizes, time, step,
+                     residual, message});
     }
   }
   return table;
