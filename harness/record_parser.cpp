@@ -52,6 +52,7 @@ constexpr auto fields = std::to_array<Field>({
     {"failure/step", Kind::number},
     {"failure/residual", Kind::number},
     {"failure/message", Kind::text},
+    {"time/ns_per_step/samples", Kind::other},
 });
 
 consteval int field(std::string_view path) {
@@ -167,9 +168,8 @@ namespace {
 class Handler {
  public:
   // `stream` is on a copy of the line, which the parser changes.
-  Handler(std::string_view line, rapidjson::InsituStringStream& stream, const Node& root, std::string& key,
-          RecordRow& row)
-      : line_(line), stream_(stream), open_{&root}, key_(key), row_(row) {}
+  Handler(std::string_view line, rapidjson::InsituStringStream& stream, const Node& root, RecordRow& row)
+      : line_(line), stream_(stream), open_{&root}, row_(row) {}
 
   bool Null() { return scalar(Kind::other, {}); }
   bool Bool(bool) { return scalar(Kind::other, {}); }
@@ -205,7 +205,9 @@ class Handler {
   }
   bool StartArray() {
     if (depth_ == 0) return false;
-    if (passed_over_++ == 0 && at_ != nullptr) note_kind(*at_, Kind::other);
+    if (passed_over_++ > 0 || at_ == nullptr) return true;
+    note_kind(*at_, Kind::other);
+    in_samples_ = at_->field == field("time/ns_per_step/samples");
     return true;
   }
   bool EndObject(rapidjson::SizeType) { return end(); }
@@ -253,6 +255,7 @@ class Handler {
     if (node.field >= 0) {
       has_[std::size_t(node.field)] = false;
       if (node.field == field("failure")) failure_ = {};
+      if (node.field == field("time/ns_per_step/samples")) row_.time_samples.clear();
     }
     if (node.number >= 0) row_.numbers[std::size_t(node.number)] = std::numeric_limits<double>::quiet_NaN();
     if (node.number < 0)
@@ -267,6 +270,11 @@ class Handler {
   }
   bool scalar(Kind kind, std::string_view text) {
     if (depth_ == 0) return false;
+    if (passed_over_ == 1 && in_samples_ && kind == Kind::number) {
+      const std::optional<double> value = finite_number(text);
+      if (value) row_.time_samples.push_back(*value);
+      return value.has_value();
+    }
     if (passed_over_ > 0 || at_ == nullptr)
       return kind != Kind::number || surely_finite(text) || finite_number(text);
     note_kind(*at_, kind);
@@ -275,7 +283,7 @@ class Handler {
   }
   void keep_text(int at, std::string_view text) {
     if (at == field("key"))
-      key_ = text;
+      row_.key = text;
     else if (at == field("outcome"))
       row_.outcome = text;
     else if (at == field("failure/message"))
@@ -297,7 +305,7 @@ class Handler {
   }
   bool end() {
     if (passed_over_ > 0) {
-      --passed_over_;
+      if (--passed_over_ == 0) in_samples_ = false;
     } else {
       if (depth_ == 1) end_member();
       --depth_;
@@ -311,12 +319,12 @@ class Handler {
   std::size_t depth_ = 0;            // of the objects that are open and looked into
   const Node* at_ = nullptr;         // the key whose value comes; null where it is of no interest
   int passed_over_ = 0;              // containers that are open and not looked into
+  bool in_samples_ = false;          // the outermost of these is time.ns_per_step.samples
   // The key of the record that was read last.
   const Node* member_ = nullptr;
   std::size_t member_begin_ = 0;
   std::array<bool, fields.size()> has_{};
   std::array<std::string_view, fields.size()> texts_{};
-  std::string& key_;
   RecordRow& row_;
   RecordedFailure failure_;
 };
@@ -389,7 +397,7 @@ RecordParser::RecordParser() : state_(std::make_unique<State>()) {}
 RecordParser::RecordParser(RecordParser&&) noexcept = default;
 RecordParser::~RecordParser() = default;
 
-bool RecordParser::parse(std::string_view line, std::string& key, RecordRow& row) {
+bool RecordParser::parse(std::string_view line, RecordRow& row) {
   constexpr unsigned flags =
       rapidjson::kParseNumbersAsStringsFlag | rapidjson::kParseInsituFlag | rapidjson::kParseIterativeFlag;
   // Of other characters the parser checks each by itself.
@@ -399,7 +407,7 @@ bool RecordParser::parse(std::string_view line, std::string& key, RecordRow& row
   if (!plain && line.find('\0') != std::string_view::npos) return false;
   state_->buffer = line;
   rapidjson::InsituStringStream stream(state_->buffer.data());
-  Handler handler(line, stream, state_->root, key, row);
+  Handler handler(line, stream, state_->root, row);
   const bool parsed = plain ? !state_->reader.Parse<flags>(stream, handler).IsError()
                             : !state_->reader.Parse<careful_flags>(stream, handler).IsError();
   if (!parsed || !handler.complete()) return false;

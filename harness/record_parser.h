@@ -25,7 +25,7 @@ class RecordParser {
 
   // Checks the whole line as JSON and as a record and fills the row, which is a new one. False where it is no record, and for
   // a few lines that parse_record takes (with a byte order mark): why, that one says. The row is then of no use.
-  bool parse(std::string_view line, std::string& key, RecordRow& row);
+  bool parse(std::string_view line, RecordRow& row);
 
  private:
   struct State;

@@ -62,53 +62,26 @@ Content::Content(const std::filesystem::path& file) {
   text_.assign(std::istreambuf_iterator<char>(stream), {});
 }
 
-template <class Record>
-struct Keyed {
-  std::string key;
-  Record record;
-};
-
-// What a thread read.
-template <class Record>
+// What was read of a megabyte of a file.
 struct Part {
-  std::vector<Keyed<Record>> records;
+  std::vector<RecordRow> records;
   std::vector<InputError> faults;
   std::exception_ptr failure;  // of the machine
 };
 
-// Readers of lines, one a thread; `place()` names the line.
-class RowReader {
- public:
-  using Record = RecordRow;
-  template <class Place>
-  void read(std::string_view line, const Place& place, Keyed<RecordRow>& result) {
-    if (parser_.parse(line, result.key, result.record)) return;
-    // What is wrong with it says the parser that all input goes through.
-    const std::string plain = parse_record(line, place()).dump();
-    result.record = {};
-    if (!parser_.parse(plain, result.key, result.record))
-      throw InputError(place(), "is not a record of liebench");
-  }
-
- private:
-  RecordParser parser_;
-};
-
-class JsonReader {
- public:
-  using Record = Json;
-  template <class Place>
-  void read(std::string_view line, const Place& place, Keyed<Json>& result) {
-    result.record = parse_record(line, place());
-    for (const char* unused : {"provenance", "reference", "drift"}) result.record.erase(unused);
-    result.key = result.record.at("key").get<std::string>();
-  }
-};
+// Fills a row, which is a new one; `place()` names the line.
+template <class Place>
+void read_line(RecordParser& parser, std::string_view line, const Place& place, RecordRow& row) {
+  if (parser.parse(line, row)) return;
+  // What is wrong with it says the parser that all input goes through.
+  const std::string plain = parse_record(line, place()).dump();
+  row = {};
+  if (!parser.parse(plain, row)) throw InputError(place(), "is not a record of liebench");
+}
 
 // Lines of a text from `begin` to `end`, which are at the start of lines.
-template <class Reader>
-void read_part(Reader& reader, std::string_view text, std::size_t begin, std::size_t end,
-               const std::string& file, BadLines bad_lines, Part<typename Reader::Record>& part) {
+void read_part(RecordParser& parser, std::string_view text, std::size_t begin, std::size_t end,
+               const std::string& file, BadLines bad_lines, Part& part) {
   // Lines are of about one length.
   const std::size_t line_size = std::min(end, text.find('\n', begin)) - begin + 1;
   part.records.reserve((end - begin) / line_size * 9 / 8 + 16);
@@ -126,7 +99,7 @@ void read_part(Reader& reader, std::string_view text, std::size_t begin, std::si
     if (line.empty()) continue;
     part.records.emplace_back();
     try {
-      reader.read(line, place, part.records.back());
+      read_line(parser, line, place, part.records.back());
       continue;
     } catch (const InputError& error) {
       part.faults.push_back(error);
@@ -140,9 +113,7 @@ void read_part(Reader& reader, std::string_view text, std::size_t begin, std::si
 }
 
 // The parts of a file, in the order of its lines.
-template <class Reader>
-std::vector<Part<typename Reader::Record>> read_parts(const std::filesystem::path& file, BadLines bad_lines,
-                                                      unsigned threads) {
+std::vector<Part> read_parts(const std::filesystem::path& file, BadLines bad_lines, unsigned threads) {
   const Content content(file);
   const std::string_view text = content.text();
   constexpr std::size_t part_size = 1U << 20U;  // bytes
@@ -153,13 +124,13 @@ std::vector<Part<typename Reader::Record>> read_parts(const std::filesystem::pat
     if (end == std::string_view::npos) break;
     begins.push_back(end + 1);
   }
-  std::vector<Part<typename Reader::Record>> parts(begins.size());
+  std::vector<Part> parts(begins.size());
   begins.push_back(text.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
-    Reader reader;
+    RecordParser parser;
     for (std::size_t i = next++; i < parts.size(); i = next++)
-      read_part(reader, text, begins[i], begins[i + 1], file.string(), bad_lines, parts[i]);
+      read_part(parser, text, begins[i], begins[i + 1], file.string(), bad_lines, parts[i]);
   };
   {
     if (threads == 0) threads = std::min(8U, std::thread::hardware_concurrency());
@@ -170,15 +141,16 @@ std::vector<Part<typename Reader::Record>> read_parts(const std::filesystem::pat
   return parts;
 }
 
-template <class Reader>
-std::vector<typename Reader::Record> read_all(const std::vector<std::filesystem::path>& files,
-                                              BadLines bad_lines, unsigned threads) {
-  std::vector<Part<typename Reader::Record>> parts;
+}  // namespace
+
+std::vector<RecordRow> read_records(const std::vector<std::filesystem::path>& files, BadLines bad_lines,
+                                    unsigned threads) {
+  std::vector<Part> parts;
   for (const std::filesystem::path& file : files)
-    for (auto& part : read_parts<Reader>(file, bad_lines, threads)) parts.push_back(std::move(part));
+    for (Part& part : read_parts(file, bad_lines, threads)) parts.push_back(std::move(part));
   std::size_t faults = 0, lines = 0;
   constexpr std::size_t named = 20;
-  for (const auto& part : parts) {
+  for (const Part& part : parts) {
     if (part.failure) std::rethrow_exception(part.failure);
     for (const InputError& fault : part.faults) {
       if (bad_lines == BadLines::reject) throw InputError(fault);
@@ -186,17 +158,20 @@ std::vector<typename Reader::Record> read_all(const std::vector<std::filesystem:
     }
     lines += part.records.size();
   }
-  std::vector<typename Reader::Record> records;
+  std::vector<RecordRow> records;
   records.reserve(lines);
+  // Of the keys of `records`, which has room for all: none of them moves.
   std::unordered_map<std::string_view, std::size_t> place_of;
   place_of.reserve(lines);
-  for (auto& part : parts)
-    for (auto& [key, record] : part.records) {
-      const auto [place, fresh] = place_of.try_emplace(key, records.size());
-      if (fresh)
-        records.push_back(std::move(record));
-      else
+  for (Part& part : parts)
+    for (RecordRow& record : part.records) {
+      if (const auto place = place_of.find(record.key); place != place_of.end()) {
+        record.key = std::move(records[place->second].key);
         records[place->second] = std::move(record);
+        continue;
+      }
+      records.push_back(std::move(record));
+      place_of.emplace(records.back().key, records.size() - 1);
     }
   if (faults > named) fmt::print(stderr, "... and {} more\n", faults - named);
   if (faults > 0)
@@ -205,27 +180,12 @@ std::vector<typename Reader::Record> read_all(const std::vector<std::filesystem:
   return records;
 }
 
-}  // namespace
-
-std::vector<RecordRow> read_records(const std::vector<std::filesystem::path>& files, BadLines bad_lines,
-                                    unsigned threads) {
-  return read_all<RowReader>(files, bad_lines, threads);
-}
-
-std::vector<Json> read_whole_records(const std::filesystem::path& file, BadLines bad_lines) {
-  return read_all<JsonReader>({file}, bad_lines, 0);
-}
-
 std::vector<RecordRow> record_rows(const std::vector<Json>& records) {
-  RowReader reader;
+  RecordParser parser;
   std::vector<RecordRow> rows;
   rows.reserve(records.size());
-  const auto place = [&] { return fmt::format("record {}", rows.size() + 1); };
-  for (const Json& record : records) {
-    Keyed<RecordRow> row;
-    reader.read(record.dump(), place, row);
-    rows.push_back(std::move(row.record));
-  }
+  const auto place = [&] { return fmt::format("record {}", rows.size()); };
+  for (const Json& record : records) read_line(parser, record.dump(), place, rows.emplace_back());
   return rows;
 }
 

@@ -17,15 +17,11 @@ enum class BadLines {
   skip     // each is named on standard error, the first twenty with their fault, and counted
 };
 
-// The records in the order of their lines, as tables and plots need them. Throws InputError that names file and line where
+// The records in the order of their lines, as tables, plots and comparisons need them. Throws InputError that names file and line where
 // one is not a record of this schema, and where a file cannot be read. At most `threads` at a time; 0: as many as there are
 // processors.
 std::vector<RecordRow> read_records(const std::vector<std::filesystem::path>& files,
                                     BadLines bad_lines = BadLines::reject, unsigned threads = 0);
-
-// The same as JSON, without what no comparison looks at: provenance, reference and drift.
-std::vector<Json> read_whole_records(const std::filesystem::path& file,
-                                     BadLines bad_lines = BadLines::reject);
 
 // Records that are in memory, each checked as those of a file.
 std::vector<RecordRow> record_rows(const std::vector<Json>& records);

@@ -11,10 +11,11 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "harness/strict_json.h"
 
-// A record as tables, order fits and plots need it: a file has 10^5 of them, and a JSON object for each takes longer than all
+// A record as tables, order fits, plots and comparisons need it: a file has 10^5 of them, and a JSON object for each takes longer than all
 // that is done with it.
 
 namespace liebench {
@@ -130,12 +131,14 @@ struct RecordedFailure {
 };
 
 struct RecordRow {
+  std::string key{};
   std::shared_ptr<const CurveIdentity> curve{};  // never null in a row that was read
   std::string outcome{};
   std::shared_ptr<const RecordedFailure> failure{};  // null where the record has none
 
   // JSON has no NaN: it stands for what a record lacks.
   std::array<double, number_paths.size()> numbers;
+  std::vector<double> time_samples{};  // time.ns_per_step.samples
 
   RecordRow() { numbers.fill(std::numeric_limits<double>::quiet_NaN()); }
   bool ended_well() const { return outcome == "ok"; }
