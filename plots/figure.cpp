@@ -42,7 +42,7 @@ void finish(const PendingFile& file) {
 
 void draw(const Figure& figure, std::span<const std::filesystem::path> outputs) {
   // Refuse a wrong ending or figure before any file is made.
-  gnuplot_script(figure, outputs);
+  require_drawable(figure, outputs);
   std::vector<PendingFile> files;
   files.reserve(outputs.size());
   std::vector<std::filesystem::path> temporaries;
