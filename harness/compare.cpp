@@ -9,9 +9,9 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "harness/median.h"
 #include "harness/rank_test.h"
 #include "harness/select.h"
-#include "harness/timing.h"
 
 namespace liebench {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "harness/cost_accuracy.h"
 #include "harness/order_matrix.h"
 #include "harness/select.h"
 #include "harness/table.h"
@@ -48,18 +49,6 @@ std::string to_table(const std::vector<std::string>& methods, const std::vector<
 
 }  // namespace
 
-std::optional<double> cost_at(const std::vector<CostPoint>& points, double target) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto& [cost, error] = points[i];
-    if (!(error <= target)) continue;
-    if (i == 0 || !(points[i - 1].error > error)) return cost;
-    const CostPoint& before = points[i - 1];
-    const double part = std::log(before.error / target) / std::log(before.error / error);
-    return before.cost * std::pow(cost / before.cost, part);
-  }
-  return std::nullopt;
-}
-
 std::string formulations_report(const std::vector<RecordRow>& records) {
   struct Group {
     std::vector<std::string> methods, formulations;
@@ -79,15 +68,14 @@ std::string formulations_report(const std::vector<RecordRow>& records) {
     remember(group.formulations, formulation);
     group.errors[method];
     group.operations[method];
-    std::vector<CostPoint> points;
     for (const RecordRow* record : curve.records) {
       const auto error = error_of(*record, quantity);
       if (!error) continue;
-      points.push_back({(*record)[record_number("cost/flops")].value(), *error});
       if (std::abs((*record)[record_number("requested_step_size")].value() - common_step) < 1e-9)
         group.errors[method][formulation] = *error;
     }
-    if (const auto cost = cost_at(points, common_error)) group.operations[method][formulation] = *cost;
+    const CostEntry cost = cost_of_error(curve, quantity, common_error);
+    if (cost.reached && !cost.extrapolated && cost.flops) group.operations[method][formulation] = *cost.flops;
   }
   std::string text = fmt::format(
       "# The formulations of the heavy top\n\n"

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "harness/median.h"
+
 namespace liebench {
 namespace {
 
@@ -39,12 +41,6 @@ using LogPoints = std::span<const LogPoint>;
 
 double slope_between(const LogPoint& a, const LogPoint& b) {
   return (b.y - a.y) / (b.x - a.x);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return values.size() % 2 == 1 ? *middle : (*std::max_element(values.begin(), middle) + *middle) / 2;
 }
 
 // Theil-Sen: the median of the slopes of all pairs; a quarter of the points may be arbitrarily wrong.

@@ -6,18 +6,20 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
-#include <unordered_map>
 #include <utility>
 
 #include "harness/errors.h"
+#include "harness/large_pages.h"
 #include "harness/record_file.h"
 #include "harness/record_parser.h"
 
@@ -62,9 +64,10 @@ Content::Content(const std::filesystem::path& file) {
   text_.assign(std::istreambuf_iterator<char>(stream), {});
 }
 
-// What was read of a megabyte of a file.
+// What was read of a part of a file.
 struct Part {
   std::vector<RecordRow> records;
+  std::vector<std::size_t> hashes;  // of their keys
   std::vector<InputError> faults;
   std::exception_ptr failure;  // of the machine
 };
@@ -84,7 +87,7 @@ void read_part(RecordParser& parser, std::string_view text, std::size_t begin, s
                const std::string& file, BadLines bad_lines, Part& part) {
   // Lines are of about one length.
   const std::size_t line_size = std::min(end, text.find('\n', begin)) - begin + 1;
-  part.records.reserve((end - begin) / line_size * 9 / 8 + 16);
+  reserve_in_large_pages(part.records, (end - begin) / line_size * 9 / 8 + 16);
   std::size_t lines = 0;
   std::optional<std::size_t> lines_before;  // counted where something is wrong
   const auto place = [&] {
@@ -100,6 +103,7 @@ void read_part(RecordParser& parser, std::string_view text, std::size_t begin, s
     part.records.emplace_back();
     try {
       read_line(parser, line, place, part.records.back());
+      part.hashes.push_back(std::hash<std::string>{}(part.records.back().key));
       continue;
     } catch (const InputError& error) {
       part.faults.push_back(error);
@@ -116,8 +120,11 @@ void read_part(RecordParser& parser, std::string_view text, std::size_t begin, s
 std::vector<Part> read_parts(const std::filesystem::path& file, BadLines bad_lines, unsigned threads) {
   const Content content(file);
   const std::string_view text = content.text();
-  constexpr std::size_t part_size = 1U << 20U;  // bytes
-  const std::size_t count = text.size() / part_size + 1;
+  // Several for each thread: one that is held up by another program leaves some to the others.
+  if (threads == 0) threads = std::min(8U, std::thread::hardware_concurrency());
+  threads = std::max(threads, 1U);
+  constexpr std::size_t least_size = 1U << 20U;  // bytes
+  const std::size_t count = std::min<std::size_t>(text.size() / least_size + 1, 4 * threads);
   std::vector<std::size_t> begins{0};
   for (std::size_t i = 1; i < count; ++i) {
     const std::size_t end = text.find('\n', std::max(begins.back(), text.size() / count * i));
@@ -133,13 +140,42 @@ std::vector<Part> read_parts(const std::filesystem::path& file, BadLines bad_lin
       read_part(parser, text, begins[i], begins[i + 1], file.string(), bad_lines, parts[i]);
   };
   {
-    if (threads == 0) threads = std::min(8U, std::thread::hardware_concurrency());
     std::vector<std::jthread> list;
     for (std::size_t i = 1; i < std::min<std::size_t>(threads, parts.size()); ++i) list.emplace_back(work);
     work();
   }
   return parts;
 }
+
+// Where the row of a key stands among rows, by open addressing.
+class KeyPlaces {
+ public:
+  // There will be at most `most` rows.
+  KeyPlaces(const std::vector<RecordRow>& rows, std::size_t most)
+      : rows_(rows), slots_(std::bit_ceil(2 * most + 1), Slot{}) {}
+
+  // Where the key is not there it gets the place behind the last row.
+  std::size_t find_or_add(const std::string& key, std::size_t hash) {
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t i = hash & mask;; i = (i + 1) & mask) {
+      Slot& slot = slots_[i];
+      if (slot.place == none) {
+        slot = {hash, rows_.size()};
+        return slot.place;
+      }
+      if (slot.hash == hash && rows_[slot.place].key == key) return slot.place;
+    }
+  }
+
+ private:
+  static constexpr std::size_t none = std::size_t(-1);
+  struct Slot {
+    std::size_t hash = 0;
+    std::size_t place = none;
+  };
+  const std::vector<RecordRow>& rows_;
+  std::vector<Slot> slots_;
+};
 
 }  // namespace
 
@@ -159,19 +195,16 @@ std::vector<RecordRow> read_records(const std::vector<std::filesystem::path>& fi
     lines += part.records.size();
   }
   std::vector<RecordRow> records;
-  records.reserve(lines);
-  // Of the keys of `records`, which has room for all: none of them moves.
-  std::unordered_map<std::string_view, std::size_t> place_of;
-  place_of.reserve(lines);
+  reserve_in_large_pages(records, lines);
+  KeyPlaces places(records, lines);
   for (Part& part : parts)
-    for (RecordRow& record : part.records) {
-      if (const auto place = place_of.find(record.key); place != place_of.end()) {
-        record.key = std::move(records[place->second].key);
-        records[place->second] = std::move(record);
-        continue;
-      }
-      records.push_back(std::move(record));
-      place_of.emplace(records.back().key, records.size() - 1);
+    for (std::size_t i = 0; i < part.records.size(); ++i) {
+      RecordRow& record = part.records[i];
+      const std::size_t place = places.find_or_add(record.key, part.hashes[i]);
+      if (place == records.size())
+        records.push_back(std::move(record));
+      else
+        records[place] = std::move(record);
     }
   if (faults > named) fmt::print(stderr, "... and {} more\n", faults - named);
   if (faults > 0)

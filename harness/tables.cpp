@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <map>
 #include <string_view>
-#include <thread>
 
+#include "harness/parallel.h"
 #include "harness/select.h"
 
 namespace liebench {
@@ -46,18 +45,8 @@ Table orders_table(const std::vector<RecordRow>& records) {
                {.header = "points", .kind = ColumnKind::integer, .alignment = Alignment::right},
                {.header = "remark"}});
   const std::vector<Curve> list = curves(records);
-  // Curves by threads: there may be thousands, and a fit takes a tenth of a millisecond.
   std::vector<std::vector<Row>> rows(list.size());
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < list.size(); i = next++) rows[i] = order_rows(list[i]);
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (unsigned i = 1; i < std::min(8U, std::thread::hardware_concurrency()); ++i)
-      threads.emplace_back(work);
-    work();
-  }
+  for_each_in_parallel(list.size(), [&](std::size_t i) { rows[i] = order_rows(list[i]); });
   for (std::vector<Row>& of_curve : rows)
     for (Row& row : of_curve) table.add_row(std::move(row));
   return table;
