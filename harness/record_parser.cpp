@@ -406,6 +406,8 @@ bool RecordParser::parse(std::string_view line, RecordRow& row) {
   // A NUL is the parser's end of the text.
   if (!plain && line.find('\0') != std::string_view::npos) return false;
   state_->buffer = line;
+  // Its end, and what the parser looks at beyond it.
+  state_->buffer.append(16, '\0');
   rapidjson::InsituStringStream stream(state_->buffer.data());
   Handler handler(line, stream, state_->root, row);
   const bool parsed = plain ? !state_->reader.Parse<flags>(stream, handler).IsError()
