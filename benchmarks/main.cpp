@@ -8,16 +8,13 @@
 #include <vector>
 
 #include "benchmarks/step.h"
+#include "harness/median.h"
 
 // Google Benchmark's program with a table at its end: general stepper and floor of the same name side by side.
 
 namespace {
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
+using liebench::median;
 
 class PairReporter : public benchmark::ConsoleReporter {
  public:

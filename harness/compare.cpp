@@ -4,83 +4,90 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <string_view>
 #include <unordered_map>
 
+#include "harness/median.h"
 #include "harness/rank_test.h"
 #include "harness/select.h"
-#include "harness/timing.h"
 
 namespace liebench {
 
 namespace {
 
-std::string row_identity(const Json& record) {
-  Json identity = identity_of(record);
-  identity["steps"] = record.at("steps");
-  identity["step_size"] = record.at("step_size");
-  return identity.dump();
-}
-
-std::string row_name(const Json& record) {
+std::string row_name(const RecordRow& record) {
+  const CurveIdentity& curve = *record.curve;
   std::string options;
-  for (const auto& option : record.at("options").items())
+  for (const auto& option : curve.options->items())
     options +=
         fmt::format(" {}={}", option.key(),
                     option.value().is_string() ? option.value().get<std::string>() : option.value().dump());
-  return fmt::format("{} {} {}{} h={:.4g}", record.at("problem").get<std::string>(),
-                     record.at("formulation").get<std::string>(), record.at("integrator").get<std::string>(),
-                     options, record.at("step_size").get<double>());
+  return fmt::format("{} {} {}{} h={:.4g}", curve.problem, curve.formulation, curve.integrator, options,
+                     record.step_size());
 }
+
+// What was run: rows of other keys belong together by it.
+struct WhatRan {
+  const RecordRow* row;
+  bool operator==(const WhatRan& other) const {
+    return row->step_size() == other.row->step_size() && row->steps() == other.row->steps() &&
+           *row->curve == *other.row->curve;
+  }
+};
+struct HashOfWhatRan {
+  std::size_t operator()(const WhatRan& run) const {
+    return run.row->curve->hash() ^ std::hash<double>{}(run.row->step_size());
+  }
+};
 
 // The index of the old row in the new ones, or npos; each new row is taken once.
 constexpr std::size_t npos = std::size_t(-1);
-std::vector<std::size_t> partners(const std::vector<Json>& before, const std::vector<Json>& after) {
-  std::unordered_map<std::string, std::size_t> by_key;
-  for (std::size_t i = 0; i < after.size(); ++i) by_key.emplace(after[i].at("key").get<std::string>(), i);
+std::vector<std::size_t> partners(const std::vector<RecordRow>& before, const std::vector<RecordRow>& after) {
+  std::unordered_map<std::string_view, std::size_t> by_key;
+  for (std::size_t i = 0; i < after.size(); ++i) by_key.emplace(after[i].key, i);
   std::vector<std::size_t> partner(before.size(), npos);
   std::vector<bool> taken(after.size(), false);
   for (std::size_t i = 0; i < before.size(); ++i)
-    if (const auto found = by_key.find(before[i].at("key").get_ref<const std::string&>());
-        found != by_key.end() && !taken[found->second]) {
+    if (const auto found = by_key.find(before[i].key); found != by_key.end() && !taken[found->second]) {
       partner[i] = found->second;
       taken[found->second] = true;
     }
-  std::unordered_map<std::string, std::size_t> by_identity;
+  std::unordered_map<WhatRan, std::size_t, HashOfWhatRan> by_run;
   for (std::size_t i = 0; i < after.size(); ++i)
-    if (!taken[i]) by_identity.emplace(row_identity(after[i]), i);
-  if (by_identity.empty()) return partner;
+    if (!taken[i]) by_run.emplace(WhatRan{&after[i]}, i);
+  if (by_run.empty()) return partner;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (partner[i] != npos) continue;
-    const auto found = by_identity.find(row_identity(before[i]));
-    if (found == by_identity.end() || taken[found->second]) continue;
+    const auto found = by_run.find(WhatRan{&before[i]});
+    if (found == by_run.end() || taken[found->second]) continue;
     partner[i] = found->second;
     taken[found->second] = true;
   }
   return partner;
 }
 
-void compare_counts(const Json& before, const Json& after, const std::string& prefix,
-                    std::vector<std::string>& changes) {
-  for (const auto& item : before.items()) {
-    const std::string name = prefix + item.key();
-    const auto found = after.find(item.key());
-    if (found == after.end())
-      changes.push_back(fmt::format("{} {} -> absent", name, item.value().dump()));
-    else if (item.value().is_object() && found->is_object())
-      compare_counts(item.value(), *found, name + ".", changes);
-    else if (item.value() != *found)
-      changes.push_back(fmt::format("{} {} -> {}", name, item.value().dump(), found->dump()));
+void compare_counts(const RecordRow& before, const RecordRow& after, std::vector<std::string>& changes) {
+  constexpr std::string_view section = "cost/";
+  for (std::size_t i = 0; i < number_paths.size(); ++i) {
+    if (!number_paths[i].starts_with(section)) continue;
+    const auto a = before[RecordNumber(i)], b = after[RecordNumber(i)];
+    if (!a || a == b) continue;
+    std::string name(number_paths[i].substr(section.size()));
+    std::replace(name.begin(), name.end(), '/', '.');
+    changes.push_back(fmt::format("{} {:.0f} -> {}", name, *a, b ? fmt::format("{:.0f}", *b) : "absent"));
   }
 }
 
 // The unit round-off: of double-double arithmetic in extended precision.
-double round_off(const Json& record) {
+double round_off(const RecordRow& record) {
   const double eps = std::numeric_limits<double>::epsilon() / 2;
-  return record.at("precision") == "extended" ? eps * eps : eps;
+  return record.curve->precision == "extended" ? eps * eps : eps;
 }
 
-void compare_errors(const Json& before, const Json& after, double band, std::vector<std::string>& changes) {
+void compare_errors(const RecordRow& before, const RecordRow& after, double band,
+                    std::vector<std::string>& changes) {
   const double relative_band = 1e-6;
   for (const char* component : {"q", "v", "lambda"}) {
     const auto relative = error_of(before, {component, "end_relative"});
@@ -96,8 +103,8 @@ void compare_errors(const Json& before, const Json& after, double band, std::vec
         continue;
       }
       const double size = quantity.norm == "end_relative" ? 1.0 : solution;
-      const double allowed = relative_band * std::max(*a, *b) +
-                             band * round_off(before) * before.at("steps").get<double>() * size;
+      const double allowed =
+          relative_band * std::max(*a, *b) + band * round_off(before) * before.steps() * size;
       // Not "greater than": a NaN differs, too.
       if (!(std::abs(*a - *b) <= allowed))
         changes.push_back(
@@ -106,18 +113,9 @@ void compare_errors(const Json& before, const Json& after, double band, std::vec
   }
 }
 
-std::vector<double> samples(const Json& record) {
-  const Json::json_pointer pointer("/time/ns_per_step/samples");
-  std::vector<double> list;
-  if (!record.contains(pointer) || !record.at(pointer).is_array()) return list;
-  for (const Json& value : record.at(pointer))
-    if (value.is_number()) list.push_back(value.get<double>());
-  return list;
-}
-
-void compare_times(const Json& before, const Json& after, const std::string& name,
+void compare_times(const RecordRow& before, const RecordRow& after, const std::string& name,
                    std::vector<std::string>& changes) {
-  const std::vector<double> a = samples(before), b = samples(after);
+  const std::vector<double>&a = before.time_samples, &b = after.time_samples;
   if (a.empty() || b.empty()) return;
   const double old_median = median(a), new_median = median(b);
   const double probability = rank_test(a, b);
@@ -136,12 +134,13 @@ void add_group(std::string& text, const char* title, const std::vector<std::stri
 
 }  // namespace
 
-Comparison compare_records(const std::vector<Json>& before, const std::vector<Json>& after, double band) {
+Comparison compare_records(const std::vector<RecordRow>& before, const std::vector<RecordRow>& after,
+                           double band) {
   Comparison result;
   const std::vector<std::size_t> partner = partners(before, after);
   std::vector<bool> seen(after.size(), false);
   for (std::size_t i = 0; i < before.size(); ++i) {
-    const Json& old_row = before[i];
+    const RecordRow& old_row = before[i];
     const std::string name = row_name(old_row);
     if (partner[i] == npos) {
       result.missing.push_back(name);
@@ -149,15 +148,14 @@ Comparison compare_records(const std::vector<Json>& before, const std::vector<Js
     }
     seen[partner[i]] = true;
     ++result.matched;
-    const Json& new_row = after[partner[i]];
-    if (old_row.at("outcome") != new_row.at("outcome")) {
+    const RecordRow& new_row = after[partner[i]];
+    if (old_row.outcome != new_row.outcome) {
       // Counts and errors of another outcome differ of themselves.
-      result.outcomes.push_back(fmt::format("{}: {} -> {}", name, old_row.at("outcome").get<std::string>(),
-                                            new_row.at("outcome").get<std::string>()));
+      result.outcomes.push_back(fmt::format("{}: {} -> {}", name, old_row.outcome, new_row.outcome));
       continue;
     }
     std::vector<std::string> changes;
-    compare_counts(old_row.at("cost"), new_row.at("cost"), "", changes);
+    compare_counts(old_row, new_row, changes);
     if (!changes.empty()) result.counts.push_back(fmt::format("{}: {}", name, fmt::join(changes, "; ")));
     changes.clear();
     compare_errors(old_row, new_row, band, changes);

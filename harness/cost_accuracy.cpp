@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "harness/parallel.h"
+
 namespace liebench {
 
 namespace {
@@ -18,36 +20,31 @@ struct Run {
   bool next_coarser_failed = false;
 };
 
-Value positive(const Json& record, const char* section, const char* key) {
-  const auto found = record.find(section);
-  if (found == record.end()) return {};
-  const auto value = found->find(key);
-  if (value == found->end() || !value->is_number() || value->get<double>() <= 0) return {};
-  return value->get<double>();
+Value positive(const Value& value) {
+  return value && *value > 0 ? value : Value();
 }
 
-Value positive_error(const Json& record, const Quantity& quantity) {
-  const Value error = error_of(record, quantity);
-  return error && std::isfinite(*error) && *error > 0 ? error : Value();
+Value positive_error(const RecordRow& record, const Quantity& quantity) {
+  return positive(error_of(record, quantity));
 }
 
 // Runs by falling step size. One without a positive error says nothing on a logarithmic scale.
 std::vector<Run> runs_of(const Curve& curve, const Quantity& quantity) {
   std::vector<Run> runs;
   bool failed = false;
-  for (const Json* record : curve.records) {
-    if (record->at("outcome") != "ok") {
+  for (const RecordRow* record : curve.records) {
+    if (!record->ended_well()) {
       failed = true;
       continue;
     }
     const Value error = positive_error(*record, quantity);
-    const double h = record->at("step_size").get<double>();
+    const double h = record->step_size();
     if (!error || (!runs.empty() && runs.back().step_size == h)) continue;
     Run run{.step_size = h, .error = *error, .next_coarser_failed = failed};
-    run.steps = record->at("steps").get<double>();
-    run.residuals = positive(*record, "cost", "residuals");
-    run.flops = positive(*record, "cost", "flops");
-    if (const Value ns = positive(*record, "time", "total_ns")) run.time_ms = *ns * 1e-6;
+    run.steps = record->steps();
+    run.residuals = positive((*record)[record_number("cost/residuals")]);
+    run.flops = positive((*record)[record_number("cost/flops")]);
+    if (const Value ns = positive((*record)[record_number("time/total_ns")])) run.time_ms = *ns * 1e-6;
     run.relative = positive_error(*record, {quantity.component, "end_relative"});
     const Value absolute = positive_error(*record, {quantity.component, "end_absolute"});
     // |e| / (1 + |y|) with |y| = |e| / relative error.
@@ -150,13 +147,48 @@ Cell digits(const Value& error) {
   return error ? Cell(-std::log10(*error)) : Cell();
 }
 
+// The rows of the curves, with their runs, for one target.
+std::vector<Row> target_rows(const std::vector<std::pair<std::string, std::vector<Run>>>& curves,
+                             double target, bool has_flops, bool has_time) {
+  std::vector<CostEntry> entries;
+  entries.reserve(curves.size());
+  for (const auto& [label, runs] : curves) entries.push_back(entry_at(label, runs, target));
+  const Cost cost = common_cost(entries);
+  constexpr double never = 1e300;
+  std::stable_sort(entries.begin(), entries.end(), [&](const CostEntry& a, const CostEntry& b) {
+    return (a.*cost).value_or(never) < (b.*cost).value_or(never);
+  });
+  // What was run goes before what was extrapolated.
+  const auto cheapest = std::find_if(entries.begin(), entries.end(), [&](const CostEntry& entry) {
+    return entry.reached && !entry.extrapolated && (entry.*cost).has_value();
+  });
+  std::vector<Row> rows;
+  rows.reserve(entries.size());
+  for (auto entry = entries.begin(); entry != entries.end(); ++entry) {
+    Row& row = rows.emplace_back();
+    row.reserve(11);
+    row.emplace_back(target);
+    row.emplace_back(std::move(entry->curve));
+    row.push_back(entry == cheapest ? Cell(true) : Cell());
+    row.push_back(cell(entry->step_size));
+    row.push_back(cell(entry->steps));
+    row.push_back(cell(entry->residuals));
+    if (has_flops) row.push_back(cell(entry->flops));
+    if (has_time) row.push_back(cell(entry->time_ms));
+    row.push_back(digits(entry->relative));
+    row.push_back(digits(entry->mixed));
+    row.emplace_back(std::move(entry->remark));
+  }
+  return rows;
+}
+
 }  // namespace
 
 CostEntry cost_of_error(const Curve& curve, const Quantity& quantity, double target) {
   return entry_at(curve.label, runs_of(curve, quantity), target);
 }
 
-Table cost_accuracy_table(const std::vector<Json>& records, const Quantity& quantity,
+Table cost_accuracy_table(const std::vector<RecordRow>& records, const Quantity& quantity,
                           const std::vector<double>& targets) {
   std::vector<std::pair<std::string, std::vector<Run>>> all;
   for (const Curve& curve : curves(records))
@@ -192,33 +224,11 @@ Table cost_accuracy_table(const std::vector<Json>& records, const Quantity& quan
 
   std::vector<double> sorted = targets;
   std::sort(sorted.rbegin(), sorted.rend());
-  for (const double target : sorted) {
-    std::vector<CostEntry> entries;
-    for (const auto& [label, runs] : all) entries.push_back(entry_at(label, runs, target));
-    const Cost cost = common_cost(entries);
-    constexpr double never = 1e300;
-    std::stable_sort(entries.begin(), entries.end(), [&](const CostEntry& a, const CostEntry& b) {
-      return (a.*cost).value_or(never) < (b.*cost).value_or(never);
-    });
-    // What was run goes before what was extrapolated.
-    auto cheapest = std::find_if(entries.begin(), entries.end(), [&](const CostEntry& entry) {
-      return entry.reached && !entry.extrapolated && (entry.*cost).has_value();
-    });
-    for (auto entry = entries.begin(); entry != entries.end(); ++entry) {
-      Row row{target,
-              entry->curve,
-              entry == cheapest ? Cell(true) : Cell(),
-              cell(entry->step_size),
-              cell(entry->steps),
-              cell(entry->residuals)};
-      if (has_flops) row.push_back(cell(entry->flops));
-      if (has_time) row.push_back(cell(entry->time_ms));
-      row.push_back(digits(entry->relative));
-      row.push_back(digits(entry->mixed));
-      row.push_back(entry->remark);
-      table.add_row(std::move(row));
-    }
-  }
+  std::vector<std::vector<Row>> rows(sorted.size());
+  for_each_in_parallel(sorted.size(),
+                       [&](std::size_t i) { rows[i] = target_rows(all, sorted[i], has_flops, has_time); });
+  for (std::vector<Row>& of_target : rows)
+    for (Row& row : of_target) table.add_row(std::move(row));
   return table;
 }
 

@@ -27,7 +27,7 @@ inline const std::vector<double> default_targets{1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1
 // Rows by falling target, then by rising cost. The cheapest of a target is marked: by time where all curves
 // that reach it are timed, else by flops where all have them, else by residuals. Columns that no row fills
 // are left out.
-Table cost_accuracy_table(const std::vector<Json>& records, const Quantity& quantity,
+Table cost_accuracy_table(const std::vector<RecordRow>& records, const Quantity& quantity,
                           const std::vector<double>& targets = default_targets);
 
 }  // namespace liebench

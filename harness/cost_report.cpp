@@ -28,14 +28,10 @@ constexpr std::array shown_settings{
     Setting{"SO3", "", "Unconstrained, SO(3)"}, Setting{"R3xSO3", "index3", "Index 3, R^3 × SO(3)"},
     Setting{"R3xSO3", "stabilized_index2", "Stabilized index 2, R^3 × SO(3)"}};
 
-std::string form_in(const Json& record) {
-  return record.at("options").value("form", "");
-}
-
-std::vector<Json> rows_of(const std::vector<Json>& records, const Setting& setting) {
-  std::vector<Json> rows;
-  for (const Json& record : records)
-    if (record.at("formulation") == setting.formulation && form_in(record) == setting.form)
+std::vector<RecordRow> rows_of(const std::vector<RecordRow>& records, const Setting& setting) {
+  std::vector<RecordRow> rows;
+  for (const RecordRow& record : records)
+    if (record.curve->formulation == setting.formulation && record.curve->form() == setting.form)
       rows.push_back(record);
   return rows;
 }
@@ -43,7 +39,7 @@ std::vector<Json> rows_of(const std::vector<Json>& records, const Setting& setti
 using Cost = std::optional<double> CostEntry::*;
 
 // A row a method, a column a target; the least of each column in bold.
-std::string cost_table(const std::vector<Json>& rows, Cost cost) {
+std::string cost_table(const std::vector<RecordRow>& rows, Cost cost) {
   const std::vector<Curve> list = curves(rows);
   std::vector<Column> columns{{.header = "method"}};
   std::vector<std::vector<CostEntry>> entries;
@@ -60,7 +56,7 @@ std::string cost_table(const std::vector<Json>& rows, Cost cost) {
   }
   Table table("", columns);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    Row row{method_name(list[i].identity)};
+    Row row{method_name(*list[i].identity)};
     for (std::size_t t = 0; t < shown_targets.size(); ++t) {
       const CostEntry& entry = entries[i][t];
       if (!entry.reached || !(entry.*cost)) {
@@ -78,7 +74,7 @@ std::string cost_table(const std::vector<Json>& rows, Cost cost) {
 }
 
 // Over all formulations and forms.
-std::string winners(const std::vector<Json>& records, Cost cost, const char* unit) {
+std::string winners(const std::vector<RecordRow>& records, Cost cost, const char* unit) {
   Table table("", {{.header = "error of q"},
                    {.header = fmt::format("cheapest without constraints [{}]", unit)},
                    {.header = fmt::format("cheapest with constraints [{}]", unit)}});
@@ -87,15 +83,14 @@ std::string winners(const std::vector<Json>& records, Cost cost, const char* uni
     std::array<std::string, 2> best;
     std::array<double, 2> least{1e300, 1e300};
     for (const Curve& curve : list) {
-      const std::string form = curve.identity.at("options").value("form", "");
+      const std::string form = curve.identity->form();
       const std::size_t constrained = form.empty() ? 0 : 1;
       const CostEntry entry = cost_of_error(curve, error_of_q, target);
       if (!entry.reached || entry.extrapolated || !(entry.*cost) || !(*(entry.*cost) < least[constrained]))
         continue;
       least[constrained] = *(entry.*cost);
-      best[constrained] =
-          fmt::format("{:.3g}: {} on {}{}", least[constrained], method_name(curve.identity),
-                      curve.identity.at("formulation").get<std::string>(), form.empty() ? "" : ", " + form);
+      best[constrained] = fmt::format("{:.3g}: {} on {}{}", least[constrained], method_name(*curve.identity),
+                                      curve.identity->formulation, form.empty() ? "" : ", " + form);
     }
     Row row{fmt::format("{:.0e}", target)};
     for (const std::string& text : best) {
@@ -107,18 +102,18 @@ std::string winners(const std::vector<Json>& records, Cost cost, const char* uni
   return to_markdown(table);
 }
 
-bool all_timed(const std::vector<Json>& records) {
-  return std::all_of(records.begin(), records.end(), [](const Json& record) {
-    return record.at("outcome") != "ok" || record.contains("time");
+bool all_timed(const std::vector<RecordRow>& records) {
+  return std::all_of(records.begin(), records.end(), [](const RecordRow& record) {
+    return !record.ended_well() || record[record_number("time/total_ns")];
   });
 }
 
 }  // namespace
 
-Figure cost_accuracy_figure(const std::vector<Json>& records) {
-  std::vector<Json> shown;
+Figure cost_accuracy_figure(const std::vector<RecordRow>& records) {
+  std::vector<RecordRow> shown;
   for (const Setting& setting : shown_settings)
-    for (Json& record : rows_of(records, setting)) shown.push_back(std::move(record));
+    for (RecordRow& record : rows_of(records, setting)) shown.push_back(std::move(record));
   Figure figure = error_figure(shown, dearest_abscissa(shown), error_of_q, true).figure;
   for (std::size_t i = 0; i < figure.panels.size() && i < shown_settings.size(); ++i)
     figure.panels[i].title = shown_settings[i].title;
@@ -126,7 +121,7 @@ Figure cost_accuracy_figure(const std::vector<Json>& records) {
   return figure;
 }
 
-std::string cost_report(const std::vector<Json>& records) {
+std::string cost_report(const std::vector<RecordRow>& records) {
   const bool times = all_timed(records);
   std::string text =
       "# What accuracy costs\n\n"
@@ -142,7 +137,7 @@ std::string cost_report(const std::vector<Json>& records) {
   if (times) text += "By computing time:\n\n" + winners(records, &CostEntry::time_ms, "ms") + "\n";
   text += "By floating point operations:\n\n" + winners(records, &CostEntry::flops, "operations");
   for (const Setting& setting : shown_settings) {
-    const std::vector<Json> rows = rows_of(records, setting);
+    const std::vector<RecordRow> rows = rows_of(records, setting);
     if (rows.empty()) continue;
     text += fmt::format("\n## {}\n\n", setting.title);
     if (times)

@@ -10,49 +10,48 @@ namespace liebench {
 namespace {
 
 struct CostColumn {
-  const char* pointer;
+  RecordNumber number;
   const char* header;
   const char* unit;
   bool per_step;  // of the run: divided by its steps
 };
 
 constexpr CostColumn cost_columns[] = {
-    {"/cost/residuals", "residuals", "", true},
-    {"/cost/jacobians", "Jacobians", "", true},
-    {"/cost/factorizations", "factorizations", "", true},
-    {"/cost/factorizations_by_cause/start", "at the start", "", true},
-    {"/cost/factorizations_by_cause/first", "first", "", true},
-    {"/cost/factorizations_by_cause/refresh", "refresh", "", true},
-    {"/cost/factorizations_by_cause/slow_convergence", "slow convergence", "", true},
-    {"/cost/solves", "solves", "", true},
-    {"/cost/newton_iterations", "Newton iterations", "", true},
-    {"/cost/exp", "exp", "", true},
-    {"/cost/log", "log", "", true},
-    {"/cost/tangent", "T", "", true},
-    {"/cost/tangent_inverse", "T^-1", "", true},
-    {"/cost/commutators", "commutators", "", true},
-    {"/cost/flops", "flops", "", true},
-    {"/cost/flops_by_kind/add", "add", "", true},
-    {"/cost/flops_by_kind/multiply", "multiply", "", true},
-    {"/cost/flops_by_kind/divide", "divide", "", true},
-    {"/cost/flops_by_kind/square_root", "square root", "", true},
-    {"/cost/flops_by_kind/transcendental", "transcendental", "", true},
-    {"/time/ns_per_step/median", "time", "ns", false},
+    {record_number("cost/residuals"), "residuals", "", true},
+    {record_number("cost/jacobians"), "Jacobians", "", true},
+    {record_number("cost/factorizations"), "factorizations", "", true},
+    {record_number("cost/factorizations_by_cause/start"), "at the start", "", true},
+    {record_number("cost/factorizations_by_cause/first"), "first", "", true},
+    {record_number("cost/factorizations_by_cause/refresh"), "refresh", "", true},
+    {record_number("cost/factorizations_by_cause/slow_convergence"), "slow convergence", "", true},
+    {record_number("cost/solves"), "solves", "", true},
+    {record_number("cost/newton_iterations"), "Newton iterations", "", true},
+    {record_number("cost/exp"), "exp", "", true},
+    {record_number("cost/log"), "log", "", true},
+    {record_number("cost/tangent"), "T", "", true},
+    {record_number("cost/tangent_inverse"), "T^-1", "", true},
+    {record_number("cost/commutators"), "commutators", "", true},
+    {record_number("cost/flops"), "flops", "", true},
+    {record_number("cost/flops_by_kind/add"), "add", "", true},
+    {record_number("cost/flops_by_kind/multiply"), "multiply", "", true},
+    {record_number("cost/flops_by_kind/divide"), "divide", "", true},
+    {record_number("cost/flops_by_kind/square_root"), "square root", "", true},
+    {record_number("cost/flops_by_kind/transcendental"), "transcendental", "", true},
+    {record_number("time/ns_per_step/median"), "time", "ns", false},
 };
 
 // The finest run that ended well, or that of the step size asked for.
-const Json* chosen(const Curve& curve, std::optional<double> step_size) {
+const RecordRow* chosen(const Curve& curve, std::optional<double> step_size) {
   for (auto run = curve.records.rbegin(); run != curve.records.rend(); ++run) {
-    if ((*run)->at("outcome") != "ok") continue;
-    const double h = (*run)->at("step_size").get<double>();
-    if (!step_size || std::abs(h - *step_size) <= 1e-9 * *step_size) return *run;
+    if (!(*run)->ended_well()) continue;
+    if (!step_size || std::abs((*run)->step_size() - *step_size) <= 1e-9 * *step_size) return *run;
   }
   return nullptr;
 }
 
 }  // namespace
 
-Table costs_table(const std::vector<Json>& records, std::optional<double> step_size) {
+Table costs_table(const std::vector<RecordRow>& records, std::optional<double> step_size) {
   struct Line {
     std::string label;
     double step_size;
@@ -62,13 +61,13 @@ Table costs_table(const std::vector<Json>& records, std::optional<double> step_s
   std::vector<Line> lines;
   std::map<const CostColumn*, bool> present;
   for (const Curve& curve : curves(records)) {
-    const Json* run = chosen(curve, step_size);
+    const RecordRow* run = chosen(curve, step_size);
     if (run == nullptr) continue;
-    Line line{curve.label, run->at("step_size").get<double>(), run->at("steps").get<std::int64_t>(), {}};
+    Line line{curve.label, run->step_size(), std::int64_t(run->steps()), {}};
     for (const CostColumn& column : cost_columns) {
-      const Json::json_pointer pointer(column.pointer);
-      if (!run->contains(pointer) || !run->at(pointer).is_number() || line.steps <= 0) continue;
-      line.costs[&column] = run->at(pointer).get<double>() / (column.per_step ? double(line.steps) : 1.0);
+      const std::optional<double> cost = (*run)[column.number];
+      if (!cost || line.steps <= 0) continue;
+      line.costs[&column] = *cost / (column.per_step ? double(line.steps) : 1.0);
       present[&column] = true;
     }
     lines.push_back(std::move(line));

@@ -16,15 +16,10 @@ namespace liebench {
 
 namespace {
 
-using Filter = std::function<bool(const Json& record)>;
-
-bool has_option(const Json& record, const char* name, const Json& value) {
-  const auto option = record.at("options").find(name);
-  return option != record.at("options").end() && *option == value;
-}
+using Filter = std::function<bool(const CurveIdentity& curve)>;
 
 // One curve in extended and in double precision: the second shows where round-off takes over.
-void add_curves(Panel& panel, const std::vector<Json>& records, const Filter& filter,
+void add_curves(Panel& panel, const std::vector<RecordRow>& records, const Filter& filter,
                 const Quantity& quantity, const std::string& label, int style, bool broad = false) {
   for (const char* precision : {"extended", "double"}) {
     const bool secondary = std::string_view(precision) == "double";
@@ -32,13 +27,12 @@ void add_curves(Panel& panel, const std::vector<Json>& records, const Filter& fi
                   .style = style,
                   .secondary = secondary,
                   .broad = broad};
-    for (const Json& record : records) {
-      if (record.at("precision") != precision || !filter(record)) continue;
-      const double h = record.at("step_size").get<double>();
-      if (record.at("outcome") != "ok")
-        series.failures.push_back({h, 0.0});
+    for (const RecordRow& record : records) {
+      if (record.curve->precision != precision || !filter(*record.curve)) continue;
+      if (!record.ended_well())
+        series.failures.push_back({record.step_size(), 0.0});
       else if (const auto error = error_of(record, quantity))
-        series.points.push_back({h, *error});
+        series.points.push_back({record.step_size(), *error});
     }
     std::sort(series.points.begin(), series.points.end(),
               [](const Point& a, const Point& b) { return a.x > b.x; });
@@ -50,22 +44,23 @@ constexpr const char* step_label = "step size h in s";
 constexpr double largest_angle = std::numbers::pi;  // of a step
 
 // |Omega(t_0)| of a study of one heavy top, rad/s.
-double initial_speed(const std::vector<Json>& records) {
+double initial_speed(const std::vector<RecordRow>& records) {
   double squared = 0.0;
-  for (const Json& component : records.front().at("parameters").at("angular_velocity"))
+  for (const Json& component : records.front().curve->parameters->at("angular_velocity"))
     squared += component.get<double>() * component.get<double>();
   return std::sqrt(squared);
 }
 
-Panel orders_panel(const std::vector<Json>& records, std::string title, std::string y_label, bool correction,
-                   const Quantity& quantity, const std::vector<int>& orders, const std::string& formulation) {
+Panel orders_panel(const std::vector<RecordRow>& records, std::string title, std::string y_label,
+                   bool correction, const Quantity& quantity, const std::vector<int>& orders,
+                   const std::string& formulation) {
   Panel panel{.title = std::move(title), .x_label = step_label, .y_label = std::move(y_label)};
   for (int k = 2; k <= 4; ++k)
     add_curves(
         panel, records,
-        [&](const Json& r) {
-          return r.at("formulation") == formulation && has_option(r, "k", k) &&
-                 has_option(r, "correction", correction);
+        [&](const CurveIdentity& c) {
+          return c.formulation == formulation && c.has_option("k", k) &&
+                 c.has_option("correction", correction);
         },
         quantity, fmt::format("k = {}", k), k - 2);
   for (std::size_t i = 0; i < orders.size(); ++i)
@@ -82,7 +77,7 @@ struct TransientCurve {
 };
 
 // Maximum and end error of lambda, maximum errors of q and v; `order` is that of the method.
-Figure transient_figure(const std::vector<Json>& records, std::string title, int order,
+Figure transient_figure(const std::vector<RecordRow>& records, std::string title, int order,
                         const std::vector<TransientCurve>& curves) {
   struct Content {
     const char* title;
@@ -107,10 +102,10 @@ Figure transient_figure(const std::vector<Json>& records, std::string title, int
 }
 
 // Figure 1 for any k.
-Figure modified_start_figure(const std::vector<Json>& records, int k) {
+Figure modified_start_figure(const std::vector<RecordRow>& records, int k) {
   const auto filter = [k](bool modified) {
-    return [k, modified](const Json& r) {
-      return has_option(r, "k", k) && has_option(r, "modified_start", modified);
+    return [k, modified](const CurveIdentity& c) {
+      return c.has_option("k", k) && c.has_option("modified_start", modified);
     };
   };
   return transient_figure(records,
@@ -120,7 +115,7 @@ Figure modified_start_figure(const std::vector<Json>& records, int k) {
 }
 
 // Theorem 3: the first four steps cover n = k, ..., 2k - 1 for every k <= 4.
-Figure first_steps_figure(const std::vector<Json>& records) {
+Figure first_steps_figure(const std::vector<RecordRow>& records) {
   Figure figure{
       .title = "Largest errors of the first four steps, starting velocities by eq. (56) (R^3×SO(3))",
       .rows = 1,
@@ -133,7 +128,9 @@ Figure first_steps_figure(const std::vector<Json>& records) {
     for (int k = 2; k <= 4; ++k) {
       add_curves(
           panel, records,
-          [k](const Json& r) { return has_option(r, "k", k) && has_option(r, "modified_start", true); },
+          [k](const CurveIdentity& c) {
+            return c.has_option("k", k) && c.has_option("modified_start", true);
+          },
           {component, "max_absolute"}, fmt::format("k = {}", k), k - 2);
       panel.orders.push_back({.order = component == "q" ? k + 1 : k, .near = fmt::format("k = {}", k)});
     }
@@ -142,11 +139,11 @@ Figure first_steps_figure(const std::vector<Json>& records) {
   return figure;
 }
 
-Figure generalized_alpha_figure(const std::vector<Json>& records) {
+Figure generalized_alpha_figure(const std::vector<RecordRow>& records) {
   const auto filter = [](const char* form, bool modified) {
-    return [form, modified](const Json& r) {
-      return r.at("formulation") == "R3xSO3" && has_option(r, "form", form) &&
-             modified == has_option(r, "modified_start", true);
+    return [form, modified](const CurveIdentity& c) {
+      return c.formulation == "R3xSO3" && c.has_option("form", form) &&
+             modified == c.has_option("modified_start", true);
     };
   };
   return transient_figure(records, "Generalized-α, ρ_∞ = 0.9 (constrained heavy top, R^3×SO(3))", 2,
@@ -155,7 +152,7 @@ Figure generalized_alpha_figure(const std::vector<Json>& records) {
                            {"stabilized index 2", filter("stabilized_index2", false), 1, false}});
 }
 
-Figure stabilized_figure(const std::vector<Json>& records) {
+Figure stabilized_figure(const std::vector<RecordRow>& records) {
   Figure figure{.title = "BLieDF2nd in the stabilized index-2 form (heavy top, R^3×SO(3))",
                 .rows = 1,
                 .columns = 2,
@@ -166,8 +163,8 @@ Figure stabilized_figure(const std::vector<Json>& records) {
     Panel panel{.title = "", .x_label = step_label, .y_label = label};
     for (int k = 2; k <= 4; ++k) {
       add_curves(
-          panel, records, [k](const Json& r) { return has_option(r, "k", k); }, {component, "max_absolute"},
-          fmt::format("k = {}", k), k - 2);
+          panel, records, [k](const CurveIdentity& c) { return c.has_option("k", k); },
+          {component, "max_absolute"}, fmt::format("k = {}", k), k - 2);
       panel.orders.push_back({.order = k, .near = fmt::format("k = {}", k)});
     }
     figure.panels.push_back(std::move(panel));
@@ -175,11 +172,11 @@ Figure stabilized_figure(const std::vector<Json>& records) {
   return figure;
 }
 
-Figure faltinsen_figure(const std::vector<Json>& records) {
+Figure faltinsen_figure(const std::vector<RecordRow>& records) {
   const auto filter = [](const char* variant, const char* form, bool modified) {
-    return [=](const Json& r) {
-      return has_option(r, "variant", variant) && has_option(r, "form", form) &&
-             modified == has_option(r, "modified_start", true);
+    return [=](const CurveIdentity& c) {
+      return c.has_option("variant", variant) && c.has_option("form", form) &&
+             modified == c.has_option("modified_start", true);
     };
   };
   return transient_figure(
@@ -191,7 +188,7 @@ Figure faltinsen_figure(const std::vector<Json>& records) {
 }
 
 // Errors against h |Omega|, with the predicted bounds of the correction term.
-Figure correction_stability_figure(const std::vector<Json>& records) {
+Figure correction_stability_figure(const std::vector<RecordRow>& records) {
   Figure figure{
       .title = "The correction term in the index-3 form: predicted bounds and blow-up (R^3×SO(3), 2 s)",
       .rows = 2,
@@ -208,7 +205,7 @@ Figure correction_stability_figure(const std::vector<Json>& records) {
       const char* label = implicit ? "L_k implicit" : "L_k explicit";
       add_curves(
           panel, records,
-          [&](const Json& r) { return has_option(r, "k", k) && has_option(r, "correction", value); },
+          [&](const CurveIdentity& c) { return c.has_option("k", k) && c.has_option("correction", value); },
           {"v", "max_absolute"}, label, style);
       const double bound = correction_stability_bound(k, implicit, largest_angle);
       if (bound < largest_angle)
@@ -227,7 +224,7 @@ Figure correction_stability_figure(const std::vector<Json>& records) {
 }
 
 // Above: error at equal step; below: at equal cost. Unconstrained, index 3, stabilized index 2.
-Figure formulations_figure(const std::vector<Json>& records) {
+Figure formulations_figure(const std::vector<RecordRow>& records) {
   Figure figure{
       .title = "BLieDF2nd, k = 3, in all formulations of the heavy top (double precision, own start)",
       .rows = 2,
@@ -247,12 +244,12 @@ Figure formulations_figure(const std::vector<Json>& records) {
                               formulations[i] == std::string_view("R3xSO3") ||
                               formulations[i] == std::string_view("SE3");
         Series series{.label = plain_text(formulations[i]), .style = int(i), .broad = matrices};
-        for (const Json& record : records) {
-          if (record.at("integrator") != "bliedf2nd" || !has_option(record, "k", 3) ||
-              record.at("formulation") != formulations[i] || record.at("options").value("form", "") != form)
+        for (const RecordRow& record : records) {
+          const CurveIdentity& c = *record.curve;
+          if (c.integrator != "bliedf2nd" || !c.has_option("k", 3) || c.formulation != formulations[i] ||
+              c.form() != form)
             continue;
-          const double x =
-              cost ? record.at("cost").at("flops").get<double>() : record.at("step_size").get<double>();
+          const double x = cost ? record[record_number("cost/flops")].value() : record.step_size();
           if (const auto error = error_of(record, {"q", "max_absolute"}))
             series.points.push_back({x, *error});
           else
@@ -266,8 +263,9 @@ Figure formulations_figure(const std::vector<Json>& records) {
   return figure;
 }
 
-Figure two_columns(const std::vector<Json>& records, const std::string& title, const std::string& formulation,
-                   const std::vector<std::pair<Quantity, std::string>>& rows, int offset) {
+Figure two_columns(const std::vector<RecordRow>& records, const std::string& title,
+                   const std::string& formulation, const std::vector<std::pair<Quantity, std::string>>& rows,
+                   int offset) {
   Figure figure{.title = title, .rows = int(rows.size()), .columns = 2, .panels = {}};
   for (const auto& [quantity, label] : rows) {
     figure.panels.push_back(orders_panel(records, "L_k by eq. (22)", label, true, quantity,
@@ -299,7 +297,8 @@ const std::vector<PaperFigure>& paper_figures() {
   return list;
 }
 
-std::map<std::string, Figure> draw_paper_figure(const PaperFigure& figure, const std::vector<Json>& records) {
+std::map<std::string, Figure> draw_paper_figure(const PaperFigure& figure,
+                                                const std::vector<RecordRow>& records) {
   if (figure.name == "figure1")
     return {{"figure1", modified_start_figure(records, 2)},
             {"figure1_k3", modified_start_figure(records, 3)},

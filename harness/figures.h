@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "harness/strict_json.h"
+#include "harness/record_row.h"
 #include "plots/figure.h"
 
 // The figures of Wieloch & Arnold's paper, and those in their manner for the other methods: which study feeds which
@@ -25,6 +25,7 @@ const std::vector<PaperFigure>& paper_figures();
 
 // Pictures of a figure by file name: Figure 1 gives figure1 for k = 2 as in the paper and figure1_k3,
 // figure1_k4 beside it.
-std::map<std::string, Figure> draw_paper_figure(const PaperFigure& figure, const std::vector<Json>& records);
+std::map<std::string, Figure> draw_paper_figure(const PaperFigure& figure,
+                                                const std::vector<RecordRow>& records);
 
 }  // namespace liebench

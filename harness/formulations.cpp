@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "harness/cost_accuracy.h"
 #include "harness/order_matrix.h"
 #include "harness/select.h"
 #include "harness/table.h"
@@ -17,11 +18,6 @@ namespace {
 const Quantity quantity{"q", "max_absolute"};
 constexpr double common_step = 1e-3;   // s
 constexpr double common_error = 1e-3;  // m, rad
-
-std::string form_word(const Json& record) {
-  const Json& options = record.at("options");
-  return options.contains("form") ? options.at("form").get<std::string>() : "";
-}
 
 // One value for each method (row) and formulation (column).
 using Values = std::map<std::string, std::map<std::string, double>>;
@@ -53,19 +49,7 @@ std::string to_table(const std::vector<std::string>& methods, const std::vector<
 
 }  // namespace
 
-std::optional<double> cost_at(const std::vector<CostPoint>& points, double target) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto& [cost, error] = points[i];
-    if (!(error <= target)) continue;
-    if (i == 0 || !(points[i - 1].error > error)) return cost;
-    const CostPoint& before = points[i - 1];
-    const double part = std::log(before.error / target) / std::log(before.error / error);
-    return before.cost * std::pow(cost / before.cost, part);
-  }
-  return std::nullopt;
-}
-
-std::string formulations_report(const std::vector<Json>& records) {
+std::string formulations_report(const std::vector<RecordRow>& records) {
   struct Group {
     std::vector<std::string> methods, formulations;
     Values errors, operations;
@@ -74,9 +58,9 @@ std::string formulations_report(const std::vector<Json>& records) {
       {"", "Unconstrained"}, {"index3", "Index 3"}, {"stabilized_index2", "Stabilized index 2"}};
   std::map<std::string, Group> groups;
   for (const Curve& curve : curves(records)) {
-    Group& group = groups[form_word(*curve.records.front())];
-    const std::string formulation = curve.identity.at("formulation").get<std::string>();
-    const std::string method = method_name(curve.identity);
+    Group& group = groups[curve.identity->form()];
+    const std::string& formulation = curve.identity->formulation;
+    const std::string method = method_name(*curve.identity);
     const auto remember = [](std::vector<std::string>& list, const std::string& name) {
       if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
     };
@@ -84,15 +68,14 @@ std::string formulations_report(const std::vector<Json>& records) {
     remember(group.formulations, formulation);
     group.errors[method];
     group.operations[method];
-    std::vector<CostPoint> points;
-    for (const Json* record : curve.records) {
+    for (const RecordRow* record : curve.records) {
       const auto error = error_of(*record, quantity);
       if (!error) continue;
-      points.push_back({record->at("cost").at("flops").get<double>(), *error});
-      if (std::abs(record->at("requested_step_size").get<double>() - common_step) < 1e-9)
+      if (std::abs((*record)[record_number("requested_step_size")].value() - common_step) < 1e-9)
         group.errors[method][formulation] = *error;
     }
-    if (const auto cost = cost_at(points, common_error)) group.operations[method][formulation] = *cost;
+    const CostEntry cost = cost_of_error(curve, quantity, common_error);
+    if (cost.reached && !cost.extrapolated && cost.flops) group.operations[method][formulation] = *cost.flops;
   }
   std::string text = fmt::format(
       "# The formulations of the heavy top\n\n"

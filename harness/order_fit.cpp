@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "harness/median.h"
+
 namespace liebench {
 namespace {
 
@@ -41,12 +43,6 @@ double slope_between(const LogPoint& a, const LogPoint& b) {
   return (b.y - a.y) / (b.x - a.x);
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return values.size() % 2 == 1 ? *middle : (*std::max_element(values.begin(), middle) + *middle) / 2;
-}
-
 // Theil-Sen: the median of the slopes of all pairs; a quarter of the points may be arbitrarily wrong.
 double median_slope(LogPoints points) {
   std::vector<double> slopes;
@@ -56,6 +52,39 @@ double median_slope(LogPoints points) {
   }
   return median(std::move(slopes));
 }
+
+// median_slope of the windows of a curve. That of a longer window comes from the sorted slopes of the shorter one.
+class WindowSlopes {
+ public:
+  explicit WindowSlopes(LogPoints points) : points_(points), medians_(points.size()) {}
+
+  // Of `count` points, at least two, from index `first` on.
+  double operator()(std::size_t first, std::size_t count) {
+    std::vector<double>& medians = medians_[first];
+    if (medians.empty()) medians = from(first);
+    return medians[count - 2];
+  }
+
+ private:
+  // For all counts from two on.
+  std::vector<double> from(std::size_t first) const {
+    std::vector<double> medians, sorted, added, merged;
+    for (std::size_t last = first + 1; last < points_.size(); ++last) {
+      added.clear();
+      for (std::size_t i = first; i < last; ++i) added.push_back(slope_between(points_[i], points_[last]));
+      std::ranges::sort(added);
+      merged.resize(sorted.size() + added.size());
+      std::ranges::merge(sorted, added, merged.begin());
+      sorted.swap(merged);
+      const std::size_t middle = sorted.size() / 2;
+      medians.push_back(sorted.size() % 2 == 1 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2);
+    }
+    return medians;
+  }
+
+  LogPoints points_;
+  std::vector<std::vector<double>> medians_;  // by the first point
+};
 
 struct Window {
   std::size_t first = 0;  // index of the smallest step size
@@ -107,11 +136,11 @@ bool secants_agree(LogPoints points, double slope, double tolerance) {
 }
 
 // Rule 2 for `count` points from index `first` on.
-std::optional<Window> one_power_law(LogPoints points, std::size_t first, std::size_t count,
-                                    double tolerance) {
+std::optional<Window> one_power_law(LogPoints points, WindowSlopes& slopes, std::size_t first,
+                                    std::size_t count, double tolerance) {
   const LogPoints candidate = points.subspan(first, count);
   if (candidate.back().x - candidate.front().x < std::log(span_factor)) return std::nullopt;
-  const double slope = median_slope(candidate);
+  const double slope = slopes(first, count);
   if (slope < least_slope) return std::nullopt;
   auto kept = without_dips(candidate, slope);
   if (!kept || !secants_agree(*kept, slope, tolerance)) return std::nullopt;
@@ -119,14 +148,14 @@ std::optional<Window> one_power_law(LogPoints points, std::size_t first, std::si
 }
 
 // Rule 3: the window with the smallest step sizes: the longest, or with the loose tolerance the shortest.
-std::optional<Window> smallest_window(LogPoints points, double tolerance) {
+std::optional<Window> smallest_window(LogPoints points, WindowSlopes& slopes, double tolerance) {
   const bool loose = tolerance > strict_tolerance;
   for (std::size_t first = 0; first + 3 <= points.size(); ++first) {
     const std::size_t available = points.size() - first;
     std::optional<Window> found;
     if (available < 4 && loose) break;
     for (std::size_t count = std::min<std::size_t>(available, 4); count <= available; ++count) {
-      auto window = one_power_law(points, first, count, tolerance);
+      auto window = one_power_law(points, slopes, first, count, tolerance);
       if (!window) continue;
       found = std::move(window);
       if (loose) break;
@@ -300,8 +329,9 @@ OrderFit fit_order(std::span<const ErrorPoint> points, double reference_error) {
   }
   usable = thinned(std::move(usable));
 
+  WindowSlopes slopes(usable);
   for (const double tolerance : {strict_tolerance, loose_tolerance}) {
-    const auto window = smallest_window(usable, tolerance);
+    const auto window = smallest_window(usable, slopes, tolerance);
     if (!window) continue;
     const auto level = window->first == 0 ? std::nullopt : floor_level(usable, window->first);
     if (window->first > 0 && !level) continue;

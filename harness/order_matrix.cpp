@@ -10,17 +10,16 @@ namespace liebench {
 
 namespace {
 
-std::string form_name(const Json& identity) {
-  const Json& options = identity.at("options");
+std::string form_name(const CurveIdentity& identity) {
+  const Json& options = *identity.options;
   if (!options.contains("form")) return "unconstrained";
   if (options.at("form") == "stabilized_index2") return "stabilized index 2";
   return options.at("modified_start") == true ? "index 3, modified start" : "index 3";
 }
 
 // Velocities in the body frame, in which the constraint of the top is a subalgebra.
-bool body_fixed(const Json& identity) {
-  const std::string formulation = identity.at("formulation").get<std::string>();
-  return formulation == "SE3" || formulation == "S3|xR3" || formulation == "UDQ";
+bool body_fixed(const CurveIdentity& identity) {
+  return identity.formulation == "SE3" || identity.formulation == "S3|xR3" || identity.formulation == "UDQ";
 }
 
 std::string measured(const Judgement& judgement, int expected) {
@@ -42,21 +41,20 @@ const std::vector<std::pair<Quantity, std::string>>& quantities() {
 
 }  // namespace
 
-std::string method_name(const Json& identity) {
-  const Json& options = identity.at("options");
-  const std::string integrator = identity.at("integrator").get<std::string>();
-  if (integrator == "generalized_alpha")
+std::string method_name(const CurveIdentity& identity) {
+  const Json& options = *identity.options;
+  if (identity.integrator == "generalized_alpha")
     return fmt::format("generalized-alpha, rho_inf = {}", options.at("rho_inf").get<double>());
   const int k = options.at("k").get<int>();
-  if (integrator == "faltinsen_bdf")
+  if (identity.integrator == "faltinsen_bdf")
     return fmt::format("Faltinsen BDF {}, k = {}", options.at("variant").get<std::string>(), k);
   const Json& correction = options.at("correction");
   const char* suffix = correction == "implicit" ? ", L_k implicit" : correction == false ? ", L_k = 0" : "";
   return fmt::format("BLieDF2nd, k = {}{}", k, suffix);
 }
 
-int expected_order(const Json& identity, const Quantity& quantity) {
-  const Json& options = identity.at("options");
+int expected_order(const CurveIdentity& identity, const Quantity& quantity) {
+  const Json& options = *identity.options;
   int order = 2;
   if (options.contains("k")) {
     order = options.at("k").get<int>();
@@ -96,14 +94,14 @@ std::vector<Column> order_matrix_columns() {
           {.header = "remark"}};
 }
 
-OrderMatrix order_matrix(const std::vector<Json>& records) {
+OrderMatrix order_matrix(const std::vector<RecordRow>& records) {
   OrderMatrix matrix;
   std::vector<std::string> order;  // formulations, as they come
   std::map<std::string, Table> tables;
   for (const Curve& curve : curves(records)) {
-    const Json& id = curve.identity;
-    const std::string formulation = id.at("formulation").get<std::string>();
-    const bool constrained = id.at("options").contains("form");
+    const CurveIdentity& id = *curve.identity;
+    const std::string& formulation = id.formulation;
+    const bool constrained = id.options->contains("form");
     if (!tables.contains(formulation)) {
       order.push_back(formulation);
       std::vector<Column> columns{{.header = "method"}, {.header = "form"}};
@@ -124,7 +122,7 @@ OrderMatrix order_matrix(const std::vector<Json>& records) {
       Row row{formulation,
               method_name(id),
               form_name(id),
-              id.at("start").get<std::string>(),
+              id.start,
               describe(quantity),
               std::int64_t(expected),
               Cell{},

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "harness/select.h"
-#include "harness/strict_json.h"
 #include "harness/table.h"
 
 // Expected and measured orders of every curve of a set of records: method x formulation x form, in q, v and lambda, at the
@@ -13,10 +12,10 @@
 namespace liebench {
 
 // Of a curve's method: "BLieDF2nd, k = 3, L_k implicit".
-std::string method_name(const Json& identity);
+std::string method_name(const CurveIdentity& identity);
 
-// The order that theory gives for the error `quantity` of a curve (Curve::identity); docs/theory.md, "Expected orders".
-int expected_order(const Json& identity, const Quantity& quantity);
+// The order that theory gives for the error `quantity` of a curve; docs/theory.md, "Expected orders".
+int expected_order(const CurveIdentity& identity, const Quantity& quantity);
 
 // A fit against an expectation. An expected order of 0 is met by an error that does not fall.
 struct Judgement {
@@ -41,6 +40,6 @@ struct OrderMatrix {
 // Columns of the whole: one row for each curve and error.
 std::vector<Column> order_matrix_columns();
 
-OrderMatrix order_matrix(const std::vector<Json>& records);
+OrderMatrix order_matrix(const std::vector<RecordRow>& records);
 
 }  // namespace liebench

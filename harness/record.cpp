@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "harness/errors.h"
+#include "harness/median.h"
 #include "harness/provenance.h"
 #include "harness/timing.h"
 

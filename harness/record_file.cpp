@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "harness/errors.h"
-#include "harness/record_reader.h"
+#include "harness/record_parser.h"
 
 namespace liebench {
 

@@ -8,11 +8,11 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "harness/errors.h"
 #include "harness/order_matrix.h"
-#include "harness/strict_json.h"
 
 namespace liebench {
 
@@ -35,36 +35,40 @@ class Looks {
   explicit Looks(bool panels) : panels_(panels) {}
   CurveLook operator()(const Curve& curve) {
     const int group = int(groups_.try_emplace(group_of(curve), groups_.size()).first->second);
-    const Json& options = curve.identity.at("options");
+    const Json& options = *curve.identity->options;
     const int k = options.contains("k") ? options.at("k").get<int>() : 0;
     return {group % style_count, group / style_count % 2 == 1, k % style_count};
   }
 
  private:
-  std::string group_of(const Curve& curve) const {
-    Json identity = curve.identity;
-    identity["options"].erase("k");
-    if (panels_) {
-      for (const char* key : {"form", "modified_start"}) identity["options"].erase(key);
-      identity.erase("formulation");
-    }
-    return identity.dump();
+  std::string group_of(const Curve& curve) {
+    const CurveIdentity& id = *curve.identity;
+    Json options = *id.options;
+    options.erase("k");
+    if (panels_)
+      for (const char* key : {"form", "modified_start"}) options.erase(key);
+    const auto known = std::find(parameters_.begin(), parameters_.end(), id.parameters);
+    const auto parameters = known - parameters_.begin();
+    if (known == parameters_.end()) parameters_.push_back(id.parameters);
+    return Json::array({id.problem, panels_ ? "" : id.formulation, parameters, id.integrator, options,
+                        id.start, id.precision, id.t_0, id.length_key, id.length})
+        .dump();
   }
 
   bool panels_;
   std::map<std::string, std::size_t> groups_;
+  std::vector<SharedJson> parameters_;
 };
 
-std::string panel_name(const Json& record) {
-  const std::string form = record.at("options").value("form", "");
-  const std::string formulation = record.at("formulation").get<std::string>();
-  return form.empty() ? formulation : fmt::format("{}, {}", formulation, form);
+std::string panel_name(const CurveIdentity& curve) {
+  const std::string form = curve.form();
+  return form.empty() ? curve.formulation : fmt::format("{}, {}", curve.formulation, form);
 }
 
 // "bliedf2nd, correction = true": what a colour stands for.
 std::string group_label(const Curve& curve) {
-  std::string text = curve.identity.at("integrator").get<std::string>();
-  for (const auto& option : curve.identity.at("options").items())
+  std::string text = curve.identity->integrator;
+  for (const auto& option : curve.identity->options->items())
     if (option.key() != "k")
       text +=
           fmt::format(", {} = {}", option.key(),
@@ -76,7 +80,7 @@ std::string group_label(const Curve& curve) {
 std::vector<std::string> labels_of(const std::vector<Curve>& list) {
   std::vector<std::string> names, labels;
   for (const Curve& curve : list) {
-    names.push_back(list.size() > most_named_curves ? group_label(curve) : method_name(curve.identity));
+    names.push_back(list.size() > most_named_curves ? group_label(curve) : method_name(*curve.identity));
     labels.push_back(curve.label);
   }
   const bool distinct = std::set<std::string>(names.begin(), names.end()).size() == names.size();
@@ -103,19 +107,24 @@ class Tags {
   std::map<std::tuple<std::string, int, bool, int>, std::size_t> numbers_;
 };
 
-using Rows = std::vector<const Json*>;
+using Rows = std::vector<const RecordRow*>;
 
 // The records in panels, in the order of their first record.
-std::vector<std::pair<std::string, Rows>> split(const std::vector<Json>& records, bool panels) {
+std::vector<std::pair<std::string, Rows>> split(const std::vector<RecordRow>& records, bool panels) {
   std::vector<std::pair<std::string, Rows>> parts;
   std::map<std::string, std::size_t> places;
+  std::unordered_map<const CurveIdentity*, std::size_t> place_of;
   Rows all;
-  for (const Json& record : records) {
+  for (const RecordRow& record : records) {
     all.push_back(&record);
     if (!panels) continue;
-    const auto [place, fresh] = places.try_emplace(panel_name(record), parts.size());
-    if (fresh) parts.push_back({place->first, {}});
-    parts[place->second].second.push_back(&record);
+    const auto [known, fresh_curve] = place_of.try_emplace(record.curve.get(), 0);
+    if (fresh_curve) {
+      const auto [place, fresh] = places.try_emplace(panel_name(*record.curve), parts.size());
+      if (fresh) parts.push_back({place->first, {}});
+      known->second = place->second;
+    }
+    parts[known->second].second.push_back(&record);
   }
   if (parts.size() > 1 && parts.size() <= most_panels) return parts;
   return {{"", std::move(all)}};
@@ -132,20 +141,20 @@ void arrange(Figure& figure) {
 
 const std::vector<Abscissa>& abscissae() {
   static const std::vector<Abscissa> list{
-      {"step_size", "step size h in s", "", "step_size", 1.0},
-      {"time", "computing time of the run in s", "time", "total_ns", 1e-9},
-      {"flops", "floating point operations of the run", "cost", "flops", 1.0},
-      {"residuals", "residuals of the run", "cost", "residuals", 1.0},
-      {"steps", "steps", "", "steps", 1.0},
-      {"jacobians", "Newton matrices of the run", "cost", "jacobians", 1.0},
-      {"factorizations", "factorizations of the run", "cost", "factorizations", 1.0},
-      {"solves", "back-substitutions of the run", "cost", "solves", 1.0},
-      {"newton_iterations", "Newton iterations of the run", "cost", "newton_iterations", 1.0},
-      {"exp", "exponentials of the run", "cost", "exp", 1.0},
-      {"log", "logarithms of the run", "cost", "log", 1.0},
-      {"tangent", "tangent operators of the run", "cost", "tangent", 1.0},
-      {"tangent_inverse", "inverse tangent operators of the run", "cost", "tangent_inverse", 1.0},
-      {"commutators", "commutators of the run", "cost", "commutators", 1.0}};
+      {"step_size", "step size h in s", record_number("step_size"), 1.0},
+      {"time", "computing time of the run in s", record_number("time/total_ns"), 1e-9},
+      {"flops", "floating point operations of the run", record_number("cost/flops"), 1.0},
+      {"residuals", "residuals of the run", record_number("cost/residuals"), 1.0},
+      {"steps", "steps", record_number("steps"), 1.0},
+      {"jacobians", "Newton matrices of the run", record_number("cost/jacobians"), 1.0},
+      {"factorizations", "factorizations of the run", record_number("cost/factorizations"), 1.0},
+      {"solves", "back-substitutions of the run", record_number("cost/solves"), 1.0},
+      {"newton_iterations", "Newton iterations of the run", record_number("cost/newton_iterations"), 1.0},
+      {"exp", "exponentials of the run", record_number("cost/exp"), 1.0},
+      {"log", "logarithms of the run", record_number("cost/log"), 1.0},
+      {"tangent", "tangent operators of the run", record_number("cost/tangent"), 1.0},
+      {"tangent_inverse", "inverse tangent operators of the run", record_number("cost/tangent_inverse"), 1.0},
+      {"commutators", "commutators of the run", record_number("cost/commutators"), 1.0}};
   return list;
 }
 
@@ -159,42 +168,37 @@ const Abscissa& abscissa(const std::string& name) {
                                       suggestion(name, names)));
 }
 
-std::optional<double> value_of(const Json& record, const Abscissa& x) {
-  const Json* section = &record;
-  if (!x.section.empty()) {
-    const auto found = record.find(x.section);
-    if (found == record.end()) return std::nullopt;
-    section = &*found;
-  }
-  const auto value = section->find(x.key);
-  if (value == section->end() || !value->is_number() || !(value->get<double>() > 0.0)) return std::nullopt;
-  return value->get<double>() * x.factor;
+std::optional<double> value_of(const RecordRow& record, const Abscissa& x) {
+  const std::optional<double> value = record[x.number];
+  if (!value || !(*value > 0.0)) return std::nullopt;
+  return *value * x.factor;
 }
 
-const Abscissa& dearest_abscissa(const std::vector<Json>& records) {
+const Abscissa& dearest_abscissa(const std::vector<RecordRow>& records) {
   Rows asked;
-  for (const Json& record : records)
-    if (record.at("outcome") == "ok" && record.at("precision") == "double") asked.push_back(&record);
+  for (const RecordRow& record : records)
+    if (record.ended_well() && record.curve->precision == "double") asked.push_back(&record);
   for (const char* name : {"time", "flops"}) {
     const Abscissa& x = abscissa(name);
-    if (!asked.empty() && std::all_of(asked.begin(), asked.end(),
-                                      [&](const Json* record) { return value_of(*record, x).has_value(); }))
+    if (!asked.empty() && std::all_of(asked.begin(), asked.end(), [&](const RecordRow* record) {
+          return value_of(*record, x).has_value();
+        }))
       return x;
   }
   return abscissa("residuals");
 }
 
-std::string failures_text(const std::vector<Json>& records) {
+std::string failures_text(const std::vector<RecordRow>& records) {
   std::map<std::string, int> outcomes;
-  for (const Json& record : records)
-    if (record.at("outcome") != "ok") ++outcomes[record.at("outcome").get<std::string>()];
+  for (const RecordRow& record : records)
+    if (!record.ended_well()) ++outcomes[record.outcome];
   std::string text;
   for (const auto& [outcome, count] : outcomes)
     text += fmt::format("{}{} {}", text.empty() ? "failed run: " : ", ", count, outcome);
   return text;
 }
 
-RecordFigure error_figure(const std::vector<Json>& records, const Abscissa& x, const Quantity& quantity,
+RecordFigure error_figure(const std::vector<RecordRow>& records, const Abscissa& x, const Quantity& quantity,
                           bool panels) {
   RecordFigure result;
   Tags tags;
@@ -203,7 +207,7 @@ RecordFigure error_figure(const std::vector<Json>& records, const Abscissa& x, c
   for (const auto& [title, rows] : parts) {
     // A failed run has no error: whether it has one of lambda, those that ended well say.
     if (std::none_of(rows.begin(), rows.end(),
-                     [&](const Json* record) { return error_of(*record, quantity).has_value(); }))
+                     [&](const RecordRow* record) { return error_of(*record, quantity).has_value(); }))
       continue;
     Panel panel{.title = plain_text(title),
                 .x_label = std::string(x.label),
@@ -214,9 +218,9 @@ RecordFigure error_figure(const std::vector<Json>& records, const Abscissa& x, c
       Series series = series_of(labels[i], looks(list[i]), list.size());
       std::size_t without_place = 0;
       bool ended_well = false, has_error = false;
-      for (const Json* record : list[i].records) {
+      for (const RecordRow* record : list[i].records) {
         const std::optional<double> value = value_of(*record, x);
-        if (record->at("outcome") != "ok") {
+        if (!record->ended_well()) {
           if (value)
             series.failures.push_back({*value, 0.0});
           else
@@ -251,34 +255,36 @@ RecordFigure error_figure(const std::vector<Json>& records, const Abscissa& x, c
   return result;
 }
 
-RecordFigure drift_figure(const std::vector<Json>& records) {
-  const std::vector<std::pair<const char*, const char*>> invariants{
-      {"energy", "drift of the energy in J"},
-      {"angular_momentum", "drift of the angular momentum in kg m^2/s"},
-      {"position_constraint", "position constraint in m"},
-      {"velocity_constraint", "velocity constraint in m/s"},
-      {"group", "distance from the group"}};
+RecordFigure drift_figure(const std::vector<RecordRow>& records) {
+  const std::vector<std::pair<RecordNumber, const char*>> invariants{
+      {record_number("drift/energy"), "drift of the energy in J"},
+      {record_number("drift/angular_momentum"), "drift of the angular momentum in kg m^2/s"},
+      {record_number("drift/position_constraint"), "position constraint in m"},
+      {record_number("drift/velocity_constraint"), "velocity constraint in m/s"},
+      {record_number("drift/group"), "distance from the group"}};
   RecordFigure result;
   const Abscissa& x = abscissa("step_size");
   const std::vector<Curve> list = curves(records);
   const std::vector<std::string> labels = labels_of(list);
-  for (const auto& [key, label] : invariants) {
-    Looks looks(false);
+  Looks looks(false);
+  std::vector<CurveLook> looks_of_curves;
+  for (const Curve& curve : list) looks_of_curves.push_back(looks(curve));
+  for (const auto& [number, label] : invariants) {
     Panel panel{.x_label = std::string(x.label), .y_label = label};
     bool applies = false;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      Series series = series_of(labels[i], looks(list[i]), list.size());
+      Series series = series_of(labels[i], looks_of_curves[i], list.size());
       bool ended_well = false;
-      for (const Json* record : list[i].records) {
-        const double h = record->at("step_size").get<double>();
-        if (record->at("outcome") != "ok") {
+      for (const RecordRow* record : list[i].records) {
+        const double h = record->step_size();
+        if (!record->ended_well()) {
           series.failures.push_back({h, 0.0});
           continue;
         }
         ended_well = true;
-        const auto drift = record->find("drift");
-        if (drift == record->end() || !drift->contains(key)) continue;
-        series.points.push_back({h, drift->at(key).get<double>()});
+        const std::optional<double> drift = (*record)[number];
+        if (!drift) continue;
+        series.points.push_back({h, *drift});
         applies = true;
       }
       if (series.points.empty() && (ended_well || series.failures.empty())) continue;

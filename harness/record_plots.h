@@ -16,8 +16,7 @@ namespace liebench {
 struct Abscissa {
   std::string_view name;
   std::string_view label;
-  std::string_view section;  // of the record: "", "cost" or "time"
-  std::string_view key;
+  RecordNumber number;
   double factor;  // from the record's unit to the label's
 };
 
@@ -28,10 +27,10 @@ const std::vector<Abscissa>& abscissae();
 const Abscissa& abscissa(const std::string& name);
 
 // The value of a record; empty where it has none. A positive one: axes are logarithmic.
-std::optional<double> value_of(const Json& record, const Abscissa& x);
+std::optional<double> value_of(const RecordRow& record, const Abscissa& x);
 
 // The first of time, flops and residuals that every run in double which ended well has; residuals where there is none.
-const Abscissa& dearest_abscissa(const std::vector<Json>& records);
+const Abscissa& dearest_abscissa(const std::vector<RecordRow>& records);
 
 struct RecordFigure {
   Figure figure;
@@ -41,13 +40,13 @@ struct RecordFigure {
 // Error against the abscissa, a panel for each formulation and form (where there are several and `panels` is true), a
 // colour for each method, a mark for each k. Failed runs are crosses at the upper edge; one that has no value on the abscissa
 // stands where the coarsest run of its curve that ended well does.
-RecordFigure error_figure(const std::vector<Json>& records, const Abscissa& x, const Quantity& quantity,
+RecordFigure error_figure(const std::vector<RecordRow>& records, const Abscissa& x, const Quantity& quantity,
                           bool panels);
 
 // A panel for each invariant that records have, against the step size.
-RecordFigure drift_figure(const std::vector<Json>& records);
+RecordFigure drift_figure(const std::vector<RecordRow>& records);
 
 // "failed run: 3 newton_diverged, 1 rotation_too_large"
-std::string failures_text(const std::vector<Json>& records);
+std::string failures_text(const std::vector<RecordRow>& records);
 
 }  // namespace liebench

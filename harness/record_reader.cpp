@@ -2,216 +2,30 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <rapidjson/memorystream.h>
-#include <rapidjson/reader.h>
 #include <sys/mman.h>
 
 #include <algorithm>
-#include <array>
+#include <atomic>
+#include <bit>
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <optional>
-#include <set>
+#include <string>
+#include <string_view>
 #include <thread>
-#include <unordered_map>
 #include <utility>
 
 #include "harness/errors.h"
-#include "harness/record.h"
+#include "harness/large_pages.h"
 #include "harness/record_file.h"
+#include "harness/record_parser.h"
 
 namespace liebench {
 
 namespace {
-
-// Throws InputError unless it has what tables and plots rely on.
-void require_record(const Json& record, const std::string& place) {
-  if (!record.is_object() || !record.contains("schema") || !record.contains("key"))
-    throw InputError(place, "is not a record of liebench: the keys \"schema\" and \"key\" are missing");
-  if (record["schema"] != record_schema)
-    throw InputError(place, fmt::format("record schema {}; this program reads {}", record["schema"].dump(),
-                                        record_schema));
-  const auto require = [&](const Json& object, const char* key, bool (Json::*is)() const noexcept) {
-    const auto found = object.find(key);
-    if (found == object.end() || !((*found).*is)())
-      throw InputError(
-          place, fmt::format("is not a whole record of liebench: \"{}\" is missing or of another type", key));
-  };
-  for (const char* key :
-       {"key", "study", "problem", "formulation", "integrator", "start", "precision", "outcome"})
-    require(record, key, &Json::is_string);
-  for (const char* key : {"parameters", "options", "reference", "cost"})
-    require(record, key, &Json::is_object);
-  for (const char* key : {"step_size", "steps", "t_0", "t_end"}) require(record, key, &Json::is_number);
-  require(record["reference"], "error_estimate", &Json::is_number);
-  if (record["outcome"] == "ok") {
-    require(record, "errors", &Json::is_object);
-  } else {
-    require(record, "failure", &Json::is_object);
-    require(record["failure"], "time", &Json::is_number);
-    require(record["failure"], "message", &Json::is_string);
-  }
-}
-
-// Events of rapidjson's parser into a record without what is not kept.
-class Builder {
- public:
-  Builder(const RecordNeeds& needs, const rapidjson::MemoryStream& stream) : needs_(needs), stream_(stream) {}
-  Json take() { return std::move(root_); }
-  // Where the object `parameters` stands on the line, if it was left out.
-  std::pair<std::size_t, std::size_t> parameters() const { return {parameters_begin_, parameters_end_}; }
-
-  bool Null() { return add(Json(nullptr)); }
-  bool Bool(bool b) { return add(Json(b)); }
-  bool Int(int i) { return add(Json(std::int64_t{i})); }
-  bool Uint(unsigned u) { return add(Json(std::uint64_t{u})); }
-  bool Int64(std::int64_t i) { return add(Json(i)); }
-  bool Uint64(std::uint64_t u) { return add(Json(u)); }
-  bool Double(double d) { return add(Json(d)); }
-  bool RawNumber(const char*, rapidjson::SizeType, bool) { return false; }
-  bool String(const char* text, rapidjson::SizeType length, bool) {
-    if (!skipping()) return add(Json(std::string(text, length)));
-    left_out();
-    return true;
-  }
-  bool StartObject() {
-    open(Json::object());
-    // Of the usual size at once: a container that grows moves what it holds.
-    if (!skipping())
-      open_.back()->get_ref<Json::object_t&>().reserve(open_.size() == 1      ? 20
-                                                       : in_parts_ && !whole_ ? 2
-                                                       : section_ == "cost"   ? 17
-                                                                              : 4);
-    return true;
-  }
-  bool StartArray() {
-    open(Json::array());
-    if (!skipping()) open_.back()->get_ref<Json::array_t&>().reserve(3);
-    return true;
-  }
-  bool EndObject(rapidjson::SizeType) { return close(); }
-  bool EndArray(rapidjson::SizeType) { return close(); }
-  bool Key(const char* text, rapidjson::SizeType length, bool) {
-    if (depth_left_out_ > 0) return true;
-    const std::string_view key(text, length);
-    if (open_.size() == 1) {
-      section_ = key;
-      in_parts_ = std::find(parts.begin(), parts.end(), key) != parts.end();
-      whole_ = in_parts_ && needs_.whole(key);
-      in_parameters_ = !needs_.shared_parameters() && key == "parameters";
-      if (in_parameters_) parameters_begin_ = stream_.Tell();
-      next_left_out_ = in_parameters_ || key == "provenance" || key == "requested_step_size" ||
-                       (in_parts_ && key != "errors" && key != "cost" && !needs_.part_of(key));
-    } else if (open_.size() == 2) {
-      next_left_out_ =
-          in_parts_ ? !whole_ && !needs_.entry(section_, key) : section_ == "reference" && key == "method";
-    }
-    if (next_left_out_) return true;
-    // A key given twice keeps its last value, as parse_json has it.
-    member_ = &(*open_.back())[std::string(key)];
-    return true;
-  }
-
- private:
-  bool skipping() const { return depth_left_out_ > 0 || next_left_out_; }
-  void left_out() {
-    if (depth_left_out_ > 0) return;
-    next_left_out_ = false;
-    if (std::exchange(in_parameters_, false)) parameters_end_ = stream_.Tell();
-  }
-  Json* place(Json&& value) {
-    if (open_.empty()) {
-      root_ = std::move(value);
-      return &root_;
-    }
-    if (open_.back()->is_array()) {
-      open_.back()->push_back(std::move(value));
-      return &open_.back()->back();
-    }
-    *member_ = std::move(value);
-    return member_;
-  }
-  bool add(Json&& value) {
-    if (skipping())
-      left_out();
-    else
-      place(std::move(value));
-    return true;
-  }
-  bool open(Json&& empty) {
-    if (skipping())
-      ++depth_left_out_;
-    else
-      open_.push_back(place(std::move(empty)));
-    return true;
-  }
-  bool close() {
-    if (depth_left_out_ > 0) {
-      --depth_left_out_;
-      left_out();
-    } else {
-      open_.pop_back();
-    }
-    return true;
-  }
-
-  // The sections that are kept by parts; errors and cost at least as empty objects, for a record is checked to have them.
-  static constexpr std::array<std::string_view, 4> parts{"errors", "cost", "time", "drift"};
-
-  const RecordNeeds& needs_;
-  const rapidjson::MemoryStream& stream_;
-  Json root_;
-  std::vector<Json*> open_;  // innermost last; a container does not move while one inside it is open
-  Json* member_ = nullptr;
-  std::string section_;
-  bool in_parts_ = false, whole_ = false;
-  bool in_parameters_ = false;
-  std::size_t parameters_begin_ = 0, parameters_end_ = 0;
-  int depth_left_out_ = 0;
-  bool next_left_out_ = false;
-};
-
-// What a thread read.
-struct Part {
-  std::vector<Json> records;
-  std::vector<InputError> faults;
-  std::exception_ptr failure;  // of the machine
-  // Where records come without their parameters: the different texts of these, and which of them is whose.
-  std::unordered_map<std::string, std::size_t> texts;
-  std::vector<std::size_t> parameters;
-};
-
-// Adds the record without what is not kept; its faults are named by the parser that all input goes through.
-void read_line(std::string_view line, const std::string& place, const RecordNeeds& needs, Part& part) {
-  constexpr unsigned flags = rapidjson::kParseFullPrecisionFlag | rapidjson::kParseValidateEncodingFlag |
-                             rapidjson::kParseIterativeFlag;
-  rapidjson::MemoryStream stream(line.data(), line.size());
-  Builder builder(needs, stream);
-  rapidjson::Reader reader;
-  Json record;
-  std::string parameters;
-  if (line.find('\0') != std::string_view::npos || reader.Parse<flags>(stream, builder).IsError()) {
-    record = parse_record(line, place);
-    if (!needs.shared_parameters()) {
-      parameters = record.at("parameters").dump();
-      record["parameters"] = Json::object();
-    }
-  } else {
-    record = builder.take();
-    if (const auto [begin, end] = builder.parameters(); end > begin) {
-      // With its last brace, before which the parser tells of the end.
-      const std::string_view text = line.substr(begin, end - begin + 1);
-      parameters = text.substr(std::min(text.find_first_not_of(": \t"), text.size()));
-      record["parameters"] = parameters.starts_with('{') ? Json::object() : Json();
-    }
-    require_record(record, place);
-  }
-  if (!needs.shared_parameters())
-    part.parameters.push_back(part.texts.try_emplace(std::move(parameters), part.texts.size()).first->second);
-  part.records.push_back(std::move(record));
-}
 
 // A file in memory without a copy of it; what is no file (a pipe) is read.
 class Content {
@@ -250,23 +64,47 @@ Content::Content(const std::filesystem::path& file) {
   text_.assign(std::istreambuf_iterator<char>(stream), {});
 }
 
-std::vector<std::string_view> lines_of_file(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    lines.push_back(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  }
-  return lines;
+// What was read of a part of a file.
+struct Part {
+  std::vector<RecordRow> records;
+  std::vector<std::size_t> hashes;  // of their keys
+  std::vector<InputError> faults;
+  std::exception_ptr failure;  // of the machine
+};
+
+// Fills a row, which is a new one; `place()` names the line.
+template <class Place>
+void read_line(RecordParser& parser, std::string_view line, const Place& place, RecordRow& row) {
+  if (parser.parse(line, row)) return;
+  // What is wrong with it says the parser that all input goes through.
+  const std::string plain = parse_record(line, place()).dump();
+  row = {};
+  if (!parser.parse(plain, row)) throw InputError(place(), "is not a record of liebench");
 }
 
-void read_part(const std::vector<std::string_view>& lines, std::size_t begin, std::size_t end,
-               const std::string& file, BadLines bad_lines, const RecordNeeds& needs, Part& part) {
-  part.records.reserve(end - begin);
-  for (std::size_t i = begin; i < end; ++i) {
-    if (lines[i].empty()) continue;
+// Lines of a text from `begin` to `end`, which are at the start of lines.
+void read_part(RecordParser& parser, std::string_view text, std::size_t begin, std::size_t end,
+               const std::string& file, BadLines bad_lines, Part& part) {
+  // Lines are of about one length.
+  const std::size_t line_size = std::min(end, text.find('\n', begin)) - begin + 1;
+  reserve_in_large_pages(part.records, (end - begin) / line_size * 9 / 8 + 16);
+  std::size_t lines = 0;
+  std::optional<std::size_t> lines_before;  // counted where something is wrong
+  const auto place = [&] {
+    if (!lines_before)
+      lines_before = std::size_t(std::count(text.begin(), text.begin() + std::ptrdiff_t(begin), '\n'));
+    return fmt::format("{}:{}", file, *lines_before + lines);
+  };
+  for (std::string_view rest = text.substr(begin, end - begin); !rest.empty();) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+    ++lines;
+    if (line.empty()) continue;
+    part.records.emplace_back();
     try {
-      read_line(lines[i], fmt::format("{}:{}", file, i + 1), needs, part);
+      read_line(parser, line, place, part.records.back());
+      part.hashes.push_back(std::hash<std::string>{}(part.records.back().key));
+      continue;
     } catch (const InputError& error) {
       part.faults.push_back(error);
       if (bad_lines == BadLines::reject) return;
@@ -274,77 +112,79 @@ void read_part(const std::vector<std::string_view>& lines, std::size_t begin, st
       part.failure = std::current_exception();
       return;
     }
+    part.records.pop_back();
   }
 }
 
-std::vector<Part> read_parts(const std::filesystem::path& file, BadLines bad_lines,
-                             const RecordNeeds& needs) {
+// The parts of a file, in the order of its lines.
+std::vector<Part> read_parts(const std::filesystem::path& file, BadLines bad_lines, unsigned threads) {
   const Content content(file);
-  const std::vector<std::string_view> lines = lines_of_file(content.text());
-  constexpr std::size_t lines_worth_a_thread = 500;
-  const std::size_t most = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
-  std::vector<Part> parts(std::clamp<std::size_t>(lines.size() / lines_worth_a_thread, 1, most));
-  const auto start_of = [&](std::size_t part) { return lines.size() * part / parts.size(); };
-  const auto read = [&](std::size_t i) {
-    read_part(lines, start_of(i), start_of(i + 1), file.string(), bad_lines, needs, parts[i]);
+  const std::string_view text = content.text();
+  // Several for each thread: one that is held up by another program leaves some to the others.
+  if (threads == 0) threads = std::min(8U, std::thread::hardware_concurrency());
+  threads = std::max(threads, 1U);
+  constexpr std::size_t least_size = 1U << 20U;  // bytes
+  const std::size_t count = std::min<std::size_t>(text.size() / least_size + 1, 4 * threads);
+  std::vector<std::size_t> begins{0};
+  for (std::size_t i = 1; i < count; ++i) {
+    const std::size_t end = text.find('\n', std::max(begins.back(), text.size() / count * i));
+    if (end == std::string_view::npos) break;
+    begins.push_back(end + 1);
+  }
+  std::vector<Part> parts(begins.size());
+  begins.push_back(text.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    RecordParser parser;
+    for (std::size_t i = next++; i < parts.size(); i = next++)
+      read_part(parser, text, begins[i], begins[i + 1], file.string(), bad_lines, parts[i]);
   };
   {
-    std::vector<std::jthread> threads;
-    for (std::size_t i = 1; i < parts.size(); ++i) threads.emplace_back(read, i);
-    read(0);
+    std::vector<std::jthread> list;
+    for (std::size_t i = 1; i < std::min<std::size_t>(threads, parts.size()); ++i) list.emplace_back(work);
+    work();
   }
   return parts;
 }
 
-}  // namespace
+// Where the row of a key stands among rows, by open addressing.
+class KeyPlaces {
+ public:
+  // There will be at most `most` rows.
+  KeyPlaces(const std::vector<RecordRow>& rows, std::size_t most)
+      : rows_(rows), slots_(std::bit_ceil(2 * most + 1), Slot{}) {}
 
-bool RecordNeeds::whole(std::string_view section) const {
-  return std::find(paths_.begin(), paths_.end(), section) != paths_.end();
-}
-
-bool RecordNeeds::part_of(std::string_view section) const {
-  return std::any_of(paths_.begin(), paths_.end(), [&](const std::string& path) {
-    return path.starts_with(section) && (path.size() == section.size() || path[section.size()] == '/');
-  });
-}
-
-bool RecordNeeds::entry(std::string_view section, std::string_view entry) const {
-  return std::any_of(paths_.begin(), paths_.end(), [&](const std::string& path) {
-    return path.size() == section.size() + 1 + entry.size() && path.starts_with(section) &&
-           path[section.size()] == '/' && path.ends_with(entry);
-  });
-}
-
-Json parse_record(std::string_view line, const std::string& place) {
-  Json record = parse_json(line, place);
-  require_record(record, place);
-  return record;
-}
-
-namespace {
-
-// Gives the records of the parts their parameters back, unless all have the same.
-void restore_parameters(std::vector<Part>& parts) {
-  std::set<std::string_view> texts;
-  for (const Part& part : parts)
-    for (const auto& text : part.texts) texts.insert(text.first);
-  if (texts.size() < 2) return;
-  for (Part& part : parts) {
-    std::vector<Json> values(part.texts.size());
-    for (const auto& [text, index] : part.texts) values[index] = parse_json(text, "parameters");
-    for (std::size_t i = 0; i < part.records.size(); ++i)
-      part.records[i]["parameters"] = values[part.parameters[i]];
+  // Where the key is not there it gets the place behind the last row.
+  std::size_t find_or_add(const std::string& key, std::size_t hash) {
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t i = hash & mask;; i = (i + 1) & mask) {
+      Slot& slot = slots_[i];
+      if (slot.place == none) {
+        slot = {hash, rows_.size()};
+        return slot.place;
+      }
+      if (slot.hash == hash && rows_[slot.place].key == key) return slot.place;
+    }
   }
-}
+
+ private:
+  static constexpr std::size_t none = std::size_t(-1);
+  struct Slot {
+    std::size_t hash = 0;
+    std::size_t place = none;
+  };
+  const std::vector<RecordRow>& rows_;
+  std::vector<Slot> slots_;
+};
 
 }  // namespace
 
-std::vector<Json> read_records(const std::vector<std::filesystem::path>& files, BadLines bad_lines,
-                               const RecordNeeds& needs) {
+std::vector<RecordRow> read_records(const std::vector<std::filesystem::path>& files, BadLines bad_lines,
+                                    unsigned threads) {
   std::vector<Part> parts;
   for (const std::filesystem::path& file : files)
-    for (Part& part : read_parts(file, bad_lines, needs)) parts.push_back(std::move(part));
-  std::size_t faults = 0;
+    for (Part& part : read_parts(file, bad_lines, threads)) parts.push_back(std::move(part));
+  std::size_t faults = 0, lines = 0;
   constexpr std::size_t named = 20;
   for (const Part& part : parts) {
     if (part.failure) std::rethrow_exception(part.failure);
@@ -352,23 +192,19 @@ std::vector<Json> read_records(const std::vector<std::filesystem::path>& files, 
       if (bad_lines == BadLines::reject) throw InputError(fault);
       if (faults++ < named) fmt::print(stderr, "{}\n", fault.what());
     }
+    lines += part.records.size();
   }
-  if (!needs.shared_parameters()) restore_parameters(parts);
-  std::vector<Json> records;
-  // The keys are texts on the heap: they stay where they are when their records move.
-  std::unordered_map<std::string_view, std::size_t> place_of;
+  std::vector<RecordRow> records;
+  reserve_in_large_pages(records, lines);
+  KeyPlaces places(records, lines);
   for (Part& part : parts)
-    for (Json& record : part.records) {
-      const std::string_view key = record["key"].get_ref<const std::string&>();
-      const auto [place, fresh] = place_of.try_emplace(key, records.size());
-      if (fresh) {
+    for (std::size_t i = 0; i < part.records.size(); ++i) {
+      RecordRow& record = part.records[i];
+      const std::size_t place = places.find_or_add(record.key, part.hashes[i]);
+      if (place == records.size())
         records.push_back(std::move(record));
-      } else {
-        const std::size_t i = place->second;
-        place_of.erase(place);
-        place_of.emplace(key, i);
-        records[i] = std::move(record);
-      }
+      else
+        records[place] = std::move(record);
     }
   if (faults > named) fmt::print(stderr, "... and {} more\n", faults - named);
   if (faults > 0)
@@ -377,8 +213,13 @@ std::vector<Json> read_records(const std::vector<std::filesystem::path>& files, 
   return records;
 }
 
-std::vector<Json> read_records(const std::filesystem::path& file) {
-  return read_records(std::vector<std::filesystem::path>{file});
+std::vector<RecordRow> record_rows(const std::vector<Json>& records) {
+  RecordParser parser;
+  std::vector<RecordRow> rows;
+  rows.reserve(records.size());
+  const auto place = [&] { return fmt::format("record {}", rows.size()); };
+  for (const Json& record : records) read_line(parser, record.dump(), place, rows.emplace_back());
+  return rows;
 }
 
 }  // namespace liebench

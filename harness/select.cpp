@@ -1,9 +1,8 @@
 #include "harness/select.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -12,123 +11,114 @@ namespace liebench {
 
 namespace {
 
-constexpr std::array identity_keys{"problem", "formulation", "parameters", "integrator",
-                                   "options", "start",       "precision",  "t_0"};
+// A part of an identity that a label can name: the name, and the value as text or as JSON.
+struct Leaf {
+  std::string_view name;
+  const std::string* text = nullptr;
+  const Json* value = nullptr;
 
-// Runs over a fixed number of steps end elsewhere for every step size.
-const char* length_key(const Json& record) {
-  return record.contains("local_steps") ? "local_steps" : "t_end";
-}
-
-std::size_t mixed(std::size_t seed, std::size_t value) {
-  return seed ^ (value + 0x9e3779b97f4a7c15U + (seed << 6U) + (seed >> 2U));
-}
-
-// Equal values have equal hashes, 1 and 1.0 as well; nothing is copied or printed.
-std::size_t hash_of(const Json& value) {
-  std::size_t seed = 0;
-  if (value.is_object()) {
-    for (const auto& item : value.items())
-      seed = mixed(mixed(seed, std::hash<std::string>{}(item.key())), hash_of(item.value()));
-  } else if (value.is_array()) {
-    for (const Json& element : value) seed = mixed(seed, hash_of(element));
-  } else if (value.is_number()) {
-    seed = std::hash<double>{}(value.get<double>());
-  } else if (value.is_string()) {
-    seed = std::hash<std::string>{}(value.get_ref<const std::string&>());
-  } else if (value.is_boolean()) {
-    seed = value.get<bool>() ? 1 : 2;
+  std::string shown() const {
+    if (text != nullptr) return *text;
+    return value->is_string() ? value->get<std::string>() : value->dump();
   }
-  return mixed(seed, value.is_number() ? 0 : std::size_t(value.type()));
-}
+};
+using Leaves = std::vector<Leaf>;
 
-template <class Visit>
-void for_identity(const Json& record, const Visit& visit) {
-  for (const char* key : identity_keys)
-    if (const auto found = record.find(key); found != record.end()) visit(key, *found);
-  const char* length = length_key(record);
-  if (const auto found = record.find(length); found != record.end()) visit(length, *found);
-}
-
-std::size_t identity_hash(const Json& record) {
-  std::size_t seed = 0;
-  for_identity(record, [&](const char* key, const Json& value) {
-    seed = mixed(mixed(seed, std::hash<std::string_view>{}(key)), hash_of(value));
-  });
-  return seed;
-}
-
-bool has_identity(const Json& record, const Json& identity) {
-  std::size_t count = 0;
-  bool same = true;
-  for_identity(record, [&](const char* key, const Json& value) {
-    ++count;
-    if (!same) return;
-    const auto found = identity.find(key);
-    same = found != identity.end() && *found == value;
-  });
-  return same && count == identity.size();
-}
-
-// Leaves of the identity as "name" -> text, so that labels can leave out what all curves share.
-void flatten(const std::string& name, const Json& value,
-             std::vector<std::pair<std::string, std::string>>& leaves) {
+void add_leaves(std::string_view name, const Json& value, Leaves& leaves) {
   if (value.is_object()) {
-    for (const auto& item : value.items()) flatten(item.key(), item.value(), leaves);
+    for (const auto& [key, member] : value.get_ref<const Json::object_t&>()) add_leaves(key, member, leaves);
     return;
   }
-  leaves.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+  leaves.push_back({.name = name, .value = &value});
 }
 
-bool speaks_for_itself(const std::string& name) {
+Leaves leaves_of(const CurveIdentity& identity) {
+  Leaves leaves{{.name = "problem", .text = &identity.problem},
+                {.name = "formulation", .text = &identity.formulation}};
+  add_leaves("parameters", *identity.parameters, leaves);
+  leaves.push_back({.name = "integrator", .text = &identity.integrator});
+  add_leaves("options", *identity.options, leaves);
+  leaves.push_back({.name = "start", .text = &identity.start});
+  leaves.push_back({.name = "precision", .text = &identity.precision});
+  add_leaves("t_0", identity.t_0, leaves);
+  add_leaves(identity.length_key, identity.length, leaves);
+  return leaves;
+}
+
+// Whether two values have the same text for certain: 1 and 1.0 are equal and have not.
+bool same_text(const Json& a, const Json& b) {
+  if (a.type() != b.type()) return false;
+  if (a.is_number_float()) {
+    const double x = a.get<double>(), y = b.get<double>();
+    return std::memcmp(&x, &y, sizeof x) == 0;
+  }
+  if (!a.is_array()) return a == b;
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_text);
+}
+
+bool same_text(const Leaf& a, const Leaf& b) {
+  if (a.text != nullptr && b.text != nullptr) return *a.text == *b.text;
+  return a.value != nullptr && b.value != nullptr && (a.value == b.value || same_text(*a.value, *b.value));
+}
+
+bool speaks_for_itself(std::string_view name) {
   return name == "problem" || name == "formulation" || name == "integrator" || name == "precision";
 }
 
-using Leaves = std::vector<std::pair<std::string, std::string>>;
-
-// The label of a curve from those of its leaves that `shown` chooses.
-template <class Shown>
-std::string label_of(const Curve& curve, const Leaves& leaves, const Shown& shown) {
+// The label of a curve from those of its leaves that `named` has.
+std::string label_of(const Curve& curve, const Leaves& leaves, const std::set<std::string_view>& named) {
   std::string text;
-  for (const auto& [name, value] : leaves) {
-    if (!shown(name)) continue;
+  for (const Leaf& leaf : leaves) {
+    if (!named.contains(leaf.name)) continue;
     if (!text.empty()) text += ", ";
-    text += speaks_for_itself(name) ? value : name + " = " + value;
+    if (!speaks_for_itself(leaf.name)) {
+      text += leaf.name;
+      text += " = ";
+    }
+    text += leaf.shown();
   }
-  return text.empty() ? curve.identity.at("integrator").get<std::string>() : text;
+  return text.empty() ? curve.identity->integrator : text;
 }
 
 // What has several values among the curves; and, where that does not tell them all apart, what some of them have and others
 // have not.
 void label(std::vector<Curve>& curves) {
-  std::map<std::string, std::set<std::string>> values;
-  std::map<std::string, std::size_t> holders;
+  struct Seen {
+    const Leaf* first;
+    std::size_t holders = 0;
+    bool differs = false;
+  };
   std::vector<Leaves> leaves(curves.size());
+  std::map<std::string_view, Seen> seen;
+  // Of the curve before: most have the same leaves in the same order.
+  std::vector<Seen*> places;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    flatten("", curves[i].identity, leaves[i]);
-    for (const auto& [name, text] : leaves[i]) values[name].insert(text);
-    for (const auto& leaf : leaves[i]) ++holders[leaf.first];
+    leaves[i] = leaves_of(*curves[i].identity);
+    places.resize(std::max(places.size(), leaves[i].size()), nullptr);
+    for (std::size_t j = 0; j < leaves[i].size(); ++j) {
+      const Leaf& leaf = leaves[i][j];
+      if (places[j] == nullptr || places[j]->first->name != leaf.name)
+        places[j] = &seen.try_emplace(leaf.name, Seen{&leaf}).first->second;
+      Seen& name = *places[j];
+      ++name.holders;
+      if (!name.differs && !same_text(*name.first, leaf)) name.differs = name.first->shown() != leaf.shown();
+    }
   }
-  const auto differs = [&](const std::string& name) { return values[name].size() > 1; };
-  std::set<std::string> labels;
+  std::set<std::string_view> named;
+  for (const auto& [name, what] : seen)
+    if (what.differs) named.insert(name);
+  std::set<std::string_view> labels;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    curves[i].label = label_of(curves[i], leaves[i], differs);
+    curves[i].label = label_of(curves[i], leaves[i], named);
     labels.insert(curves[i].label);
   }
   if (labels.size() == curves.size()) return;
-  for (std::size_t i = 0; i < curves.size(); ++i)
-    curves[i].label = label_of(curves[i], leaves[i], [&](const std::string& name) {
-      return differs(name) || holders[name] < curves.size();
-    });
+  for (const auto& [name, what] : seen)
+    if (what.holders < curves.size()) named.insert(name);
+  for (std::size_t i = 0; i < curves.size(); ++i) curves[i].label = label_of(curves[i], leaves[i], named);
 }
 
 }  // namespace
-
-Json identity_of(const Json& record) {
-  Json identity;
-  for_identity(record, [&](const char* key, const Json& value) { identity[key] = value; });
-  return identity;
-}
 
 std::string describe(const Quantity& quantity) {
   const std::string unit = quantity.component == "lambda" ? " in N" : "";
@@ -137,40 +127,54 @@ std::string describe(const Quantity& quantity) {
   return "maximum error of " + quantity.component + unit;
 }
 
-std::optional<double> error_of(const Json& record, const Quantity& quantity) {
-  const auto errors = record.find("errors");
-  if (errors == record.end()) return std::nullopt;
-  const auto component = errors->find(quantity.component);
-  if (component == errors->end()) return std::nullopt;
-  const auto value = component->find(quantity.norm);
-  if (value == component->end() || !value->is_number()) return std::nullopt;
-  return value->get<double>();
+std::optional<double> error_of(const RecordRow& record, const Quantity& quantity) {
+  constexpr std::array<std::string_view, 3> components{"q", "v", "lambda"};
+  constexpr std::array<std::string_view, 3> norms{"end_relative", "end_absolute", "max_absolute"};
+  constexpr std::array<std::array<RecordNumber, 3>, 3> numbers{{
+      {record_number("errors/q/end_relative"), record_number("errors/q/end_absolute"),
+       record_number("errors/q/max_absolute")},
+      {record_number("errors/v/end_relative"), record_number("errors/v/end_absolute"),
+       record_number("errors/v/max_absolute")},
+      {record_number("errors/lambda/end_relative"), record_number("errors/lambda/end_absolute"),
+       record_number("errors/lambda/max_absolute")},
+  }};
+  const auto component = std::find(components.begin(), components.end(), quantity.component);
+  const auto norm = std::find(norms.begin(), norms.end(), quantity.norm);
+  if (component == components.end() || norm == norms.end()) return std::nullopt;
+  return record[numbers[std::size_t(component - components.begin())][std::size_t(norm - norms.begin())]];
 }
 
-std::vector<Curve> curves(const std::vector<Json>& records) {
-  std::vector<const Json*> pointers;
-  for (const Json& record : records) pointers.push_back(&record);
+std::vector<Curve> curves(const std::vector<RecordRow>& records) {
+  std::vector<const RecordRow*> pointers;
+  pointers.reserve(records.size());
+  for (const RecordRow& record : records) pointers.push_back(&record);
   return curves_of(pointers);
 }
 
-std::vector<Curve> curves_of(const std::vector<const Json*>& records) {
+std::vector<Curve> curves_of(const std::vector<const RecordRow*>& records) {
   std::vector<Curve> list;
-  std::unordered_map<std::size_t, std::vector<std::size_t>> index;  // more than one where hashes collide
-  for (const Json* each : records) {
-    const Json& record = *each;
-    std::vector<std::size_t>& places = index[identity_hash(record)];
-    auto place = std::find_if(places.begin(), places.end(),
-                              [&](std::size_t i) { return has_identity(record, list[i].identity); });
-    if (place == places.end()) {
-      place = places.insert(places.end(), list.size());
-      list.push_back({.label = "", .identity = identity_of(record), .records = {}});
+  std::unordered_map<const CurveIdentity*, std::size_t> place_of;
+  // Identities that were read apart may be equal all the same; more than one place where hashes collide.
+  std::unordered_map<std::size_t, std::vector<std::size_t>> places_of_hash;
+  for (const RecordRow* record : records) {
+    const auto [known, fresh] = place_of.try_emplace(record->curve.get(), list.size());
+    if (fresh) {
+      std::vector<std::size_t>& places = places_of_hash[record->curve->hash()];
+      const auto same = std::find_if(places.begin(), places.end(),
+                                     [&](std::size_t i) { return *list[i].identity == *record->curve; });
+      if (same != places.end()) {
+        known->second = *same;
+      } else {
+        places.push_back(list.size());
+        list.push_back({.identity = record->curve});
+      }
     }
-    list[*place].records.push_back(&record);
+    list[known->second].records.push_back(record);
   }
+  const auto coarser = [](const RecordRow* a, const RecordRow* b) { return a->step_size() > b->step_size(); };
   for (Curve& curve : list)
-    std::stable_sort(curve.records.begin(), curve.records.end(), [](const Json* a, const Json* b) {
-      return a->at("step_size").get<double>() > b->at("step_size").get<double>();
-    });
+    if (!std::is_sorted(curve.records.begin(), curve.records.end(), coarser))
+      std::stable_sort(curve.records.begin(), curve.records.end(), coarser);
   label(list);
   return list;
 }
@@ -178,11 +182,12 @@ std::vector<Curve> curves_of(const std::vector<const Json*>& records) {
 OrderFit fit_curve(const Curve& curve, const Quantity& quantity) {
   std::vector<ErrorPoint> points;
   double reference_error = 0.0;
-  for (const Json* record : curve.records) {
+  for (const RecordRow* record : curve.records) {
     const std::optional<double> error = error_of(*record, quantity);
     if (!error) continue;
-    points.push_back({record->at("step_size").get<double>(), *error});
-    reference_error = std::max(reference_error, record->at("reference").at("error_estimate").get<double>());
+    points.push_back({record->step_size(), *error});
+    reference_error =
+        std::max(reference_error, record->numbers[std::size_t(record_number("reference/error_estimate"))]);
   }
   return fit_order(points, reference_error);
 }

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "harness/order_fit.h"
-#include "harness/strict_json.h"
+#include "harness/record_row.h"
 
 // From records to curves: which error against which step size, and which records belong together.
 
@@ -23,22 +22,18 @@ struct Quantity {
 std::string describe(const Quantity& quantity);
 
 // The error of a record; empty where the run failed or the quantity does not apply.
-std::optional<double> error_of(const Json& record, const Quantity& quantity);
-
-// What the records of one curve share: problem, formulation, parameters, integrator, options, start,
-// precision, t_0, and t_end or local_steps.
-Json identity_of(const Json& record);
+std::optional<double> error_of(const RecordRow& record, const Quantity& quantity);
 
 // Records of one curve: they differ in the step size alone.
 struct Curve {
-  std::string label;                 // what sets it apart from the other curves of its set
-  Json identity;                     // identity_of each of its records
-  std::vector<const Json*> records;  // by falling step size
+  std::string label{};                              // what sets it apart from the other curves of its set
+  std::shared_ptr<const CurveIdentity> identity{};  // that of its first record
+  std::vector<const RecordRow*> records{};          // by falling step size
 };
 
 // All curves of the records, in the order of their first record. Labels name what differs among them.
-std::vector<Curve> curves(const std::vector<Json>& records);
-std::vector<Curve> curves_of(const std::vector<const Json*>& records);
+std::vector<Curve> curves(const std::vector<RecordRow>& records);
+std::vector<Curve> curves_of(const std::vector<const RecordRow*>& records);
 
 // The observed order of a curve: fit_order on its records with the reference's error estimate.
 OrderFit fit_curve(const Curve& curve, const Quantity& quantity);

@@ -4,10 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
+
+#include "harness/large_pages.h"
+#include "harness/parallel.h"
 
 namespace liebench {
 namespace {
@@ -27,16 +32,22 @@ bool fits(const Cell& cell, ColumnKind kind) {
   return std::holds_alternative<bool>(cell);
 }
 
-// A finite number with the column's significant digits; trailing zeros stay, for they are digits too.
-std::string rounded(double value, const Column& column) {
-  const std::string scientific = fmt::format("{:.{}e}", value, column.digits - 1);
+// Appends a finite number with the column's significant digits; trailing zeros stay, for they are digits too.
+void add_rounded(std::string& text, double value, const Column& column) {
+  std::array<char, 40> buffer;
+  const auto result = fmt::format_to_n(buffer.data(), buffer.size(), "{:.{}e}", value, column.digits - 1);
+  const std::string_view scientific(buffer.data(), result.size);
   const std::size_t e = scientific.find('e');
   // Of the rounded number: 9.996 with three digits is 10.0.
-  const int exponent = std::stoi(scientific.substr(e + 1));
+  int exponent = 0;
+  const char* const sign = scientific.data() + e + 1;
+  std::from_chars(*sign == '+' ? sign + 1 : sign, scientific.data() + scientific.size(), exponent);
   if (column.notation == Notation::automatic && exponent >= -4 && exponent < column.digits) {
-    return fmt::format("{:.{}f}", value, column.digits - 1 - exponent);
+    fmt::format_to(std::back_inserter(text), "{:.{}f}", value, column.digits - 1 - exponent);
+  } else {
+    text += scientific.substr(0, e);
+    fmt::format_to(std::back_inserter(text), "e{}", exponent);
   }
-  return fmt::format("{}e{}", scientific.substr(0, e), exponent);
 }
 
 std::string header_text(const Column& column) {
@@ -45,8 +56,9 @@ std::string header_text(const Column& column) {
 
 // The same cell in the writer's own words: one member for each thing a cell can be.
 struct Wording {
-  std::string (*text)(std::string_view);
-  std::string (*number)(const std::string&);  // from digits and perhaps e
+  void (*add_text)(std::string& text, std::string_view added);
+  std::string before_number;
+  std::string after_number;
   std::string absent;
   std::string nan;
   std::string infinity;
@@ -55,17 +67,26 @@ struct Wording {
   std::string no;
 };
 
-std::string worded(const Cell& cell, const Column& column, const Wording& wording) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return wording.text(*text);
-  if (const auto* integer = std::get_if<std::int64_t>(&cell))
-    return wording.number(fmt::format("{}", *integer));
-  if (const auto* mark = std::get_if<bool>(&cell)) return *mark ? wording.yes : wording.no;
-  if (const auto* number = std::get_if<double>(&cell)) {
-    if (std::isnan(*number)) return wording.nan;
-    if (std::isinf(*number)) return *number > 0 ? wording.infinity : wording.minus_infinity;
-    return wording.number(rounded(*number, column));
+void add_cell(std::string& text, const Cell& cell, const Column& column, const Wording& wording) {
+  if (const auto* words = std::get_if<std::string>(&cell)) {
+    wording.add_text(text, *words);
+  } else if (const auto* integer = std::get_if<std::int64_t>(&cell)) {
+    fmt::format_to(std::back_inserter(text), "{}{}{}", wording.before_number, *integer, wording.after_number);
+  } else if (const auto* mark = std::get_if<bool>(&cell)) {
+    text += *mark ? wording.yes : wording.no;
+  } else if (const auto* number = std::get_if<double>(&cell)) {
+    if (std::isnan(*number)) {
+      text += wording.nan;
+    } else if (std::isinf(*number)) {
+      text += *number > 0 ? wording.infinity : wording.minus_infinity;
+    } else {
+      text += wording.before_number;
+      add_rounded(text, *number, column);
+      text += wording.after_number;
+    }
+  } else {
+    text += wording.absent;
   }
-  return wording.absent;
 }
 
 // Width on screen in columns: code points, which is right for every character that our tables use.
@@ -74,25 +95,23 @@ std::size_t width(std::string_view text) {
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-std::string padded(const std::string& text, std::size_t to_width, Alignment alignment) {
-  const std::size_t space = to_width - width(text);
+void add_padded(std::string& text, std::string_view added, std::size_t to_width, Alignment alignment) {
+  const std::size_t space = to_width - width(added);
   const std::size_t left = alignment == Alignment::left    ? 0
                            : alignment == Alignment::right ? space
                                                            : space / 2;
-  return std::string(left, ' ') + text + std::string(space - left, ' ');
+  text.append(left, ' ').append(added).append(space - left, ' ');
 }
 
-std::string markdown_text(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '|' || c == '\\') escaped += '\\';
+void add_markdown(std::string& text, std::string_view added) {
+  for (const char c : added) {
+    if (c == '|' || c == '\\') text += '\\';
     if (c == '\n') {
-      escaped += "<br>";
+      text += "<br>";
     } else if (c != '\r') {
-      escaped += c;
+      text += c;
     }
   }
-  return escaped;
 }
 
 // A character and its LaTeX in turn. A bracket is braced because at the start of a row TeX would read it as
@@ -110,37 +129,43 @@ constexpr auto latex_translations = std::to_array<std::string_view>({
     "∞", "$\\infty$",  "→", "$\\to$",  "°", "$^\\circ$",  "–", "--",  "—", "---"});
 // clang-format on
 
-std::string latex_text(std::string_view text) {
-  std::string escaped;
-  while (!text.empty()) {
+void add_latex(std::string& text, std::string_view added) {
+  while (!added.empty()) {
     std::size_t i = 0;
-    while (i < latex_translations.size() && !text.starts_with(latex_translations[i])) i += 2;
+    while (i < latex_translations.size() && !added.starts_with(latex_translations[i])) i += 2;
     const bool known = i < latex_translations.size();
-    escaped += known ? latex_translations[i + 1] : text.substr(0, 1);
-    text.remove_prefix(known ? latex_translations[i].size() : 1);
+    text += known ? latex_translations[i + 1] : added.substr(0, 1);
+    added.remove_prefix(known ? latex_translations[i].size() : 1);
   }
-  return escaped;
 }
 
-std::string csv_text(std::string_view text) {
-  if (!text.empty() && text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
+void add_csv(std::string& text, std::string_view added) {
+  if (!added.empty() && added.find_first_of(",\"\r\n") == std::string_view::npos) {
+    text += added;
+    return;
   }
-  return quoted + '"';
+  text += '"';
+  for (const char c : added) {
+    if (c == '"') text += '"';
+    text += c;
+  }
+  text += '"';
 }
 
-std::string csv_cell(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return csv_text(*text);
-  if (const auto* integer = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *integer);
-  if (const auto* mark = std::get_if<bool>(&cell)) return *mark ? "true" : "false";
-  if (const auto* number = std::get_if<double>(&cell)) {
+void add_csv_cell(std::string& text, const Cell& cell) {
+  if (const auto* words = std::get_if<std::string>(&cell)) {
+    add_csv(text, *words);
+  } else if (const auto* integer = std::get_if<std::int64_t>(&cell)) {
+    fmt::format_to(std::back_inserter(text), "{}", *integer);
+  } else if (const auto* mark = std::get_if<bool>(&cell)) {
+    text += *mark ? "true" : "false";
+  } else if (const auto* number = std::get_if<double>(&cell)) {
     // The sign of a NaN says nothing and is not the same on all machines.
-    return std::isnan(*number) ? "nan" : fmt::format("{}", *number);
+    if (std::isnan(*number))
+      text += "nan";
+    else
+      fmt::format_to(std::back_inserter(text), "{}", *number);
   }
-  return "";
 }
 
 }  // namespace
@@ -169,9 +194,42 @@ void Table::add_row(Row row) {
   rows_.push_back(std::move(row));
 }
 
+namespace {
+
+// Consecutive rows of a Markdown table.
+struct MarkdownRows {
+  std::string cells;              // one after the other
+  std::vector<std::size_t> ends;  // of the cells
+  std::vector<std::size_t> widths;
+  std::string text;
+
+  explicit MarkdownRows(std::size_t columns) : widths(columns, 3) {}  // three, for the rule below the headers
+
+  void end_cell() {
+    const std::size_t begin = ends.empty() ? 0 : ends.back();
+    std::size_t& widest = widths[ends.size() % widths.size()];
+    widest = std::max(widest, width(std::string_view(cells).substr(begin)));
+    ends.push_back(cells.size());
+  }
+  // With columns of these widths.
+  void write(const std::vector<Column>& columns, const std::vector<std::size_t>& common_widths) {
+    std::size_t begin = 0;
+    for (std::size_t cell = 0; cell < ends.size(); begin = ends[cell++]) {
+      const std::size_t i = cell % columns.size();
+      text += "| ";
+      add_padded(text, std::string_view(cells).substr(begin, ends[cell] - begin), common_widths[i],
+                 columns[i].alignment);
+      text += i + 1 < columns.size() ? " " : " |\n";
+    }
+  }
+};
+
+}  // namespace
+
 std::string to_markdown(const Table& table) {
-  static const Wording wording{.text = markdown_text,
-                               .number = [](const std::string& digits) { return digits; },
+  static const Wording wording{.add_text = add_markdown,
+                               .before_number = "",
+                               .after_number = "",
                                .absent = "–",
                                .nan = "NaN",
                                .infinity = "∞",
@@ -179,60 +237,82 @@ std::string to_markdown(const Table& table) {
                                .yes = "✓",
                                .no = "✗"};
   const auto& columns = table.columns();
-  std::vector<std::vector<std::string>> lines(1);
-  for (const Column& column : columns) lines.front().push_back(markdown_text(header_text(column)));
-  for (const Row& row : table.rows()) {
-    auto& line = lines.emplace_back();
-    for (std::size_t i = 0; i < row.size(); ++i) line.push_back(worded(row[i], columns[i], wording));
+  MarkdownRows headers(columns.size());
+  for (const Column& column : columns) {
+    add_markdown(headers.cells, header_text(column));
+    headers.end_cell();
   }
-  std::vector<std::size_t> widths(columns.size(), 3);  // three, for the rule below the headers
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], width(line[i]));
-  }
+  // A cost-accuracy table of many curves has 10^5 rows.
+  constexpr std::size_t block_size = 4096;
+  std::vector<MarkdownRows> blocks((table.rows().size() + block_size - 1) / block_size,
+                                   MarkdownRows(columns.size()));
+  for_each_in_parallel(blocks.size(), [&](std::size_t number) {
+    const std::size_t end = std::min(table.rows().size(), (number + 1) * block_size);
+    for (std::size_t i = number * block_size; i < end; ++i)
+      for (std::size_t j = 0; j < columns.size(); ++j) {
+        add_cell(blocks[number].cells, table.rows()[i][j], columns[j], wording);
+        blocks[number].end_cell();
+      }
+  });
+  std::vector<std::size_t> widths = headers.widths;
+  for (const MarkdownRows& block : blocks)
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], block.widths[i]);
+  headers.write(columns, widths);
+  for_each_in_parallel(blocks.size(), [&](std::size_t i) { blocks[i].write(columns, widths); });
 
   std::string text;
-  if (!table.caption().empty()) text += markdown_text(table.caption()) + "\n\n";
-  for (std::size_t n = 0; n < lines.size(); ++n) {
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      text += "| " + padded(lines[n][i], widths[i], columns[i].alignment) + ' ';
-    text += "|\n";
-    if (n > 0) continue;
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      const bool right = columns[i].alignment != Alignment::left;
-      const bool centre = columns[i].alignment == Alignment::centre;
-      text += fmt::format("| {}{}{} ", centre ? ":" : "",
-                          std::string(widths[i] - (right ? 1 : 0) - (centre ? 1 : 0), '-'), right ? ":" : "");
-    }
-    text += "|\n";
+  std::size_t size = table.caption().size() + 1000 + 2 * headers.text.size();
+  for (const MarkdownRows& block : blocks) size += block.text.size();
+  reserve_in_large_pages(text, size);
+  if (!table.caption().empty()) {
+    add_markdown(text, table.caption());
+    text += "\n\n";
   }
+  text += headers.text;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const bool right = columns[i].alignment != Alignment::left;
+    const bool centre = columns[i].alignment == Alignment::centre;
+    text += fmt::format("| {}{}{} ", centre ? ":" : "",
+                        std::string(widths[i] - (right ? 1 : 0) - (centre ? 1 : 0), '-'), right ? ":" : "");
+  }
+  text += "|\n";
+  for (const MarkdownRows& block : blocks) text += block.text;
   return text;
 }
 
 std::string to_latex(const Table& table) {
-  static const Wording wording{
-      .text = latex_text,
-      .number = [](const std::string& digits) { return fmt::format("\\num{{{}}}", digits); },
-      .absent = "--",
-      .nan = "NaN",
-      .infinity = "$\\infty$",
-      .minus_infinity = "$-\\infty$",
-      .yes = "$\\checkmark$",
-      .no = "$\\times$"};
+  static const Wording wording{.add_text = add_latex,
+                               .before_number = "\\num{",
+                               .after_number = "}",
+                               .absent = "--",
+                               .nan = "NaN",
+                               .infinity = "$\\infty$",
+                               .minus_infinity = "$-\\infty$",
+                               .yes = "$\\checkmark$",
+                               .no = "$\\times$"};
   const auto& columns = table.columns();
   std::string text = "% needs \\usepackage{booktabs,siunitx,amssymb}\n\\begin{table}\n  \\centering\n";
-  if (!table.caption().empty()) text += fmt::format("  \\caption{{{}}}\n", latex_text(table.caption()));
+  if (!table.caption().empty()) {
+    text += "  \\caption{";
+    add_latex(text, table.caption());
+    text += "}\n";
+  }
   text += "  \\begin{tabular}{";
   for (const Column& column : columns) {
     text += column.alignment == Alignment::left ? 'l' : column.alignment == Alignment::right ? 'r' : 'c';
   }
   text += "}\n    \\toprule\n    ";
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    text += (i > 0 ? " & " : "") + latex_text(header_text(columns[i]));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (i > 0) text += " & ";
+    add_latex(text, header_text(columns[i]));
+  }
   text += " \\\\\n    \\midrule\n";
   for (const Row& row : table.rows()) {
     text += "    ";
-    for (std::size_t i = 0; i < row.size(); ++i)
-      text += (i > 0 ? " & " : "") + worded(row[i], columns[i], wording);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i > 0) text += " & ";
+      add_cell(text, row[i], columns[i], wording);
+    }
     text += " \\\\\n";
   }
   return text + "    \\bottomrule\n  \\end{tabular}\n\\end{table}\n";
@@ -241,11 +321,16 @@ std::string to_latex(const Table& table) {
 std::string to_csv(const Table& table) {
   const auto& columns = table.columns();
   std::string text;
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    text += (i > 0 ? "," : "") + csv_text(header_text(columns[i]));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (i > 0) text += ',';
+    add_csv(text, header_text(columns[i]));
+  }
   text += "\r\n";
   for (const Row& row : table.rows()) {
-    for (std::size_t i = 0; i < row.size(); ++i) text += (i > 0 ? "," : "") + csv_cell(row[i]);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i > 0) text += ',';
+      add_csv_cell(text, row[i]);
+    }
     const bool blank_line = row.size() == 1 && std::holds_alternative<std::monostate>(row.front());
     text += blank_line ? "\"\"\r\n" : "\r\n";
   }

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <map>
-#include <thread>
+#include <string_view>
 
+#include "harness/parallel.h"
 #include "harness/select.h"
 
 namespace liebench {
@@ -19,7 +19,7 @@ std::vector<Row> order_rows(const Curve& curve) {
     for (const char* norm : {"end_relative", "max_absolute"}) {
       const Quantity quantity{component, norm};
       if (std::none_of(curve.records.begin(), curve.records.end(),
-                       [&](const Json* record) { return error_of(*record, quantity).has_value(); }))
+                       [&](const RecordRow* record) { return error_of(*record, quantity).has_value(); }))
         continue;
       const OrderFit fit = fit_curve(curve, quantity);
       if (fit.estimate)
@@ -34,7 +34,7 @@ std::vector<Row> order_rows(const Curve& curve) {
 
 }  // namespace
 
-Table orders_table(const std::vector<Json>& records) {
+Table orders_table(const std::vector<RecordRow>& records) {
   Table table("Observed orders of convergence; window and uncertainty by the rule of docs/orders.md",
               {{.header = "curve"},
                {.header = "error"},
@@ -45,24 +45,14 @@ Table orders_table(const std::vector<Json>& records) {
                {.header = "points", .kind = ColumnKind::integer, .alignment = Alignment::right},
                {.header = "remark"}});
   const std::vector<Curve> list = curves(records);
-  // Curves by threads: there may be thousands, and a fit takes a tenth of a millisecond.
   std::vector<std::vector<Row>> rows(list.size());
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < list.size(); i = next++) rows[i] = order_rows(list[i]);
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (unsigned i = 1; i < std::min(8U, std::thread::hardware_concurrency()); ++i)
-      threads.emplace_back(work);
-    work();
-  }
+  for_each_in_parallel(list.size(), [&](std::size_t i) { rows[i] = order_rows(list[i]); });
   for (std::vector<Row>& of_curve : rows)
     for (Row& row : of_curve) table.add_row(std::move(row));
   return table;
 }
 
-Table outcomes_table(const std::vector<Json>& records) {
+Table outcomes_table(const std::vector<RecordRow>& records) {
   Table table("Outcomes", {{.header = "curve"},
                            {.header = "outcome"},
                            {.header = "runs", .kind = ColumnKind::integer, .alignment = Alignment::right},
@@ -79,24 +69,22 @@ Table outcomes_table(const std::vector<Json>& records) {
                             .notation = Notation::scientific},
                            {.header = "message"}});
   for (const Curve& curve : curves(records)) {
-    std::map<std::string, std::vector<const Json*>> by_outcome;
-    for (const Json* record : curve.records)
-      by_outcome[record->at("outcome").get<std::string>()].push_back(record);
+    std::map<std::string_view, std::vector<const RecordRow*>> by_outcome;
+    for (const RecordRow* record : curve.records) by_outcome[record->outcome].push_back(record);
     for (const auto& [outcome, runs] : by_outcome) {
-      const double largest = runs.front()->at("step_size").get<double>();
-      const double smallest = runs.back()->at("step_size").get<double>();
+      const double largest = runs.front()->step_size();
+      const double smallest = runs.back()->step_size();
       const std::string sizes = runs.size() == 1 ? fmt::format("{:.3g}", largest)
                                                  : fmt::format("{:.3g} to {:.3g}", largest, smallest);
       Cell time, step, residual, message;
-      if (const auto failure = runs.front()->find("failure"); failure != runs.front()->end()) {
-        time = failure->at("time").get<double>();
-        message = failure->at("message").get<std::string>();
-        if (failure->contains("step") && failure->at("step").is_number_integer())
-          step = failure->at("step").get<std::int64_t>();
-        if (failure->contains("residual") && failure->at("residual").is_number())
-          residual = failure->at("residual").get<double>();
+      if (const auto& failure = runs.front()->failure) {
+        time = failure->time;
+        message = failure->message;
+        if (failure->step) step = *failure->step;
+        if (failure->residual) residual = *failure->residual;
       }
-      table.add_row({curve.label, outcome, std::int64_t(runs.size()), sizes, time, step, residual, message});
+      table.add_row({curve.label, std::string(outcome), std::int64_t(runs.size()), sizes, time, step,
+                     residual, message});
     }
   }
   return table;

@@ -3,19 +3,19 @@
 #include <optional>
 #include <vector>
 
-#include "harness/strict_json.h"
+#include "harness/record_row.h"
 #include "harness/table.h"
 
 namespace liebench {
 
 // Observed order of every curve of the records, in q, v and lambda, at the end and as maximum over all steps.
-Table orders_table(const std::vector<Json>& records);
+Table orders_table(const std::vector<RecordRow>& records);
 
 // How many runs of every curve ended how, and where the first of them failed.
-Table outcomes_table(const std::vector<Json>& records);
+Table outcomes_table(const std::vector<RecordRow>& records);
 
 // Counts and time of one step of every curve, at its finest run that ended well or at the step size given.
 // Columns that no record fills are left out.
-Table costs_table(const std::vector<Json>& records, std::optional<double> step_size = {});
+Table costs_table(const std::vector<RecordRow>& records, std::optional<double> step_size = {});
 
 }  // namespace liebench

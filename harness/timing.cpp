@@ -13,6 +13,7 @@
 
 #include "harness/errors.h"
 #include "harness/execute.h"
+#include "harness/median.h"
 #include "harness/progress.h"
 
 namespace liebench {
@@ -106,12 +107,6 @@ void time_round(std::vector<TimedCase>& cases, const TimingRules& rules) {
 }
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
 
 double spread_of(const std::vector<double>& repetitions) {
   if (repetitions.size() < 2) return 0.0;

@@ -28,8 +28,6 @@ bool is_timed(const RunSpec& run);
 void time_runs(const std::vector<RunSpec>& runs, const TimingRules& rules, const ReferenceCache& cache,
                Progress& progress, const std::function<void(std::size_t, const RunTimes&)>& take);
 
-double median(std::vector<double> values);
-
 // The interquartile range of the repetitions over their median.
 double spread_of(const std::vector<double>& repetitions);
 

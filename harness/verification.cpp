@@ -148,14 +148,13 @@ std::vector<Section> sections() {
           cure,  alpha,         alpha_cure, alpha_stabilized, stabilized, faltinsen};
 }
 
-Curve select(const std::vector<Json>& records, const Claim& claim) {
+Curve select(const std::vector<RecordRow>& records, const Claim& claim) {
   Curve curve;
-  for (const Json& record : records) {
-    if (record.at("precision") != "extended" || record.at("formulation") != claim.formulation) continue;
-    const Json& options = record.at("options");
+  for (const RecordRow& record : records) {
+    if (record.curve->precision != "extended" || record.curve->formulation != claim.formulation) continue;
     bool matches = true;
     for (const auto& option : claim.options.items())
-      matches = matches && options.contains(option.key()) && options.at(option.key()) == option.value();
+      matches = matches && record.curve->has_option(option.key().c_str(), option.value());
     if (matches) curve.records.push_back(&record);
   }
   return curve;
@@ -181,7 +180,8 @@ struct MatrixSection {
 };
 
 // Every method, form and formulation: a table each, and all windows as CSV.
-std::string matrices(const std::map<std::string, std::vector<Json>>& records_by_study, Verification& result) {
+std::string matrices(const std::map<std::string, std::vector<RecordRow>>& records_by_study,
+                     Verification& result) {
   const std::vector<MatrixSection> sections{
       {"verification", "Every method, form and formulation, exact starting values",
        "Order k (generalized-alpha: 2) in all components, but in the index-3 form, from exact starting "
@@ -220,7 +220,7 @@ std::string matrices(const std::map<std::string, std::vector<Json>>& records_by_
 
 }  // namespace
 
-Verification verify(const std::map<std::string, std::vector<Json>>& records_by_study,
+Verification verify(const std::map<std::string, std::vector<RecordRow>>& records_by_study,
                     const std::string& note) {
   Verification result;
   std::string body;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/strict_json.h"
+#include "harness/record_row.h"
 
 // What the paper claims and what was measured: docs/verification.md is this text.
 
@@ -20,7 +20,7 @@ struct Verification {
 
 // Judges every claim by the records of the figures' studies in extended precision. `note` is a sentence about
 // the run that made them, such as that it was the short form.
-Verification verify(const std::map<std::string, std::vector<Json>>& records_by_study,
+Verification verify(const std::map<std::string, std::vector<RecordRow>>& records_by_study,
                     const std::string& note);
 
 }  // namespace liebench

@@ -22,8 +22,9 @@ struct Extent {
 
   void include(double value, bool logarithmic) {
     if (!on_axis(value, logarithmic)) return;
-    lower = std::min(lower, to_axis(value, logarithmic));
-    upper = std::max(upper, to_axis(value, logarithmic));
+    const double coordinate = to_axis(value, logarithmic);
+    lower = std::min(lower, coordinate);
+    upper = std::max(upper, coordinate);
   }
   void include(const Extent& other) {
     lower = std::min(lower, other.lower);
@@ -73,11 +74,12 @@ Range padded(Extent extent, bool logarithmic, double pad_lower, double pad_upper
 }
 
 /// Of all panels with this panel's x label.
-Range x_range_of(const Figure& figure, const Panel& panel) {
+Range x_range_of(const Figure& figure, const Panel& panel, std::span<const Extent> extents) {
   if (panel.x_range) return *panel.x_range;
   Extent extent;
-  for (const Panel& other : figure.panels) {
-    if (other.x_label == panel.x_label && other.log_x == panel.log_x) extent.include(x_extent(other));
+  for (std::size_t index = 0; index < extents.size(); ++index) {
+    const Panel& other = figure.panels[index];
+    if (other.x_label == panel.x_label && other.log_x == panel.log_x) extent.include(extents[index]);
   }
   return padded(extent, panel.log_x, pad, pad);
 }
@@ -106,9 +108,11 @@ Range y_range_of(const Figure& figure, std::size_t index, std::span<const Axes> 
 
 std::vector<Axes> axes_of(const Figure& figure, PlotArea area) {
   std::vector<Axes> result;
+  std::vector<Extent> extents;
+  for (const Panel& panel : figure.panels) extents.push_back(x_extent(panel));
   for (const Panel& panel : figure.panels) {
     result.push_back(
-        {{x_range_of(figure, panel), panel.log_x, area.width}, {Range{}, panel.log_y, area.height}});
+        {{x_range_of(figure, panel, extents), panel.log_x, area.width}, {Range{}, panel.log_y, area.height}});
   }
   for (std::size_t index = 0; index < result.size(); ++index) {
     result[index].y.range = y_range_of(figure, index, result);

@@ -32,9 +32,11 @@ std::string bar_commands(const BarChart& chart, double height) {
   script += fmt::format("set label 1000 {} at screen 0.5,{:.5f} center font ',{}'\n",
                         gnuplot_literal(plain_text(chart.title)), 1 - 16 / height, font_size + 1);
   script += fmt::format("set xlabel {}\nset xrange [{}:{}]\nset yrange [{}:-0.5]\n",
-                        gnuplot_literal(plain_text(chart.axis)), least < 0.0 ? least - room : 0.0,
+                        gnuplot_literal(plain_text(chart.axis)), least < 0.0 ? least - 0.2 * room : 0.0,
                         most + room, double(chart.bars.size()) - 0.5);
-  script += "set border 3 linecolor '#808080'\nset xtics nomirror\nset ytics nomirror scale 0 (";
+  script +=
+      "set border 3 linecolor '#808080'\nset xtics nomirror textcolor '#000000'\nset ytics nomirror scale 0 "
+      "textcolor '#000000' (";
   for (std::size_t i = 0; i < chart.bars.size(); ++i)
     script += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_literal(plain_text(chart.bars[i].label)), i);
   script += ")\nset arrow 1000 from 0,graph 0 to 0,graph 1 nohead linecolor '#808080'\n";
@@ -43,9 +45,9 @@ std::string bar_commands(const BarChart& chart, double height) {
     script += fmt::format(
         "set object {} rectangle from {},{} to {},{} fillstyle solid noborder fillcolor '#0072b2'\n", i + 1,
         std::min(0.0, bar.value), double(i) - 0.33, std::max(0.0, bar.value), double(i) + 0.33);
-    script +=
-        fmt::format("set label {} {} at {},{} {} offset {},0\n", i + 1, gnuplot_literal(plain_text(bar.note)),
-                    bar.value, i, bar.value < 0.0 ? "right" : "left", bar.value < 0.0 ? -0.6 : 0.6);
+    // Beside what a bar to the left leaves free.
+    script += fmt::format("set label {} {} at {},{} left offset 0.6,0\n", i + 1,
+                          gnuplot_literal(plain_text(bar.note)), std::max(0.0, bar.value), i);
   }
   return script + "plot 1/0 notitle\n";
 }

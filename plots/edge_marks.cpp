@@ -34,14 +34,18 @@ double failure_room(int levels) {
 
 std::vector<FailureMark> failure_marks(const Panel& panel, const Scale& x) {
   std::vector<FailureMark> result;
+  std::vector<double> places;
+  const Positions position = x.positions();
   for (std::size_t index = 0; index < panel.series.size(); ++index) {
     for (const double value : failures_of(panel.series[index])) {
       if (!on_axis(value, panel.log_x)) continue;
-      const auto beside = std::ranges::count_if(result, [&](const FailureMark& other) {
-        return std::abs(x.position(other.x) - x.position(value)) < failure_step;
-      });
-      result.push_back(
-          {index, value, static_cast<int>(std::min<std::ptrdiff_t>(beside, failure_levels - 1))});
+      const double place = position(value);
+      int level = 0;
+      for (std::size_t i = 0; i < places.size() && level < failure_levels - 1; ++i) {
+        if (std::abs(places[i] - place) < failure_step) ++level;
+      }
+      result.push_back({index, value, level});
+      places.push_back(place);
     }
   }
   return result;

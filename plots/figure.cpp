@@ -7,7 +7,7 @@ namespace liebench {
 
 void draw(const Figure& figure, std::span<const std::filesystem::path> outputs) {
   // Refuse a wrong ending or figure before any file is made.
-  gnuplot_script(figure, outputs);
+  require_drawable(figure, outputs);
   draw_files(outputs, [&](std::span<const std::filesystem::path> temporaries) {
     return gnuplot_script(figure, outputs, temporaries);
   });

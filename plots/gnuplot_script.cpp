@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -43,20 +44,27 @@ std::string plot_style(const Look& look, std::size_t point_count, bool marked) {
   return fmt::format("with linespoints {} dt {}{}", mark, look.dashes, interval);
 }
 
-void write_data(std::string& script, std::string_view name, std::span<const std::string> lines) {
-  script += fmt::format("${} << EOD\n", name);
-  for (const std::string& line : lines) script += line + "\n";
-  script += "EOD\n";
-}
+/// Lines of a datablock.
+struct Lines {
+  std::string text = {};
+  std::size_t count = 0;
 
-std::string data_line(double x, double y) {
-  return fmt::format("{} {}", x, y);
-}
+  void add(double x, double y) {
+    fmt::format_to(std::back_inserter(text), "{} {}\n", x, y);
+    ++count;
+  }
+  /// gnuplot's pen up.
+  void lift_pen() {
+    text += '\n';
+    ++count;
+  }
+};
 
-/// A curve's points, with an empty line (gnuplot's pen up) where a failed run lies between two of them.
-std::vector<std::string> curve_lines(const Series& series, const Axes& axes) {
-  std::vector<std::string> lines;
+/// A curve's points, with an empty line where a failed run lies between two of them.
+Lines curve_lines(const Series& series, const Axes& axes) {
+  Lines lines;
   const std::vector<double> failures = failures_of(series);
+  const Positions across = axes.x.positions(), up = axes.y.positions();
   std::optional<double> previous;
   Point drawn;  // the last one, on the page
   for (const Point& point : series.points) {
@@ -65,13 +73,13 @@ std::vector<std::string> curve_lines(const Series& series, const Axes& axes) {
     const bool gap = previous && std::ranges::any_of(failures, [&](double x) {
                        return x > std::min(*previous, point.x) && x < std::max(*previous, point.x);
                      });
-    if (gap) lines.emplace_back();
-    const double x = axes.x.position(point.x), y = axes.y.position(point.y);
+    if (gap) lines.lift_pen();
+    const double x = across(point.x), y = up(point.y);
     if (!gap && previous && &point != &series.points.back() &&
         std::hypot(x - drawn.x, y - drawn.y) < least_distance)
       continue;
     drawn = {x, y};
-    lines.push_back(data_line(point.x, point.y));
+    lines.add(point.x, point.y);
     previous = point.x;
   }
   return lines;
@@ -80,7 +88,7 @@ std::vector<std::string> curve_lines(const Series& series, const Axes& axes) {
 struct Curve {
   std::string name;
   std::string look;
-  std::vector<std::string> lines;
+  Lines lines;
 };
 
 /// Writes the datablocks of a panel and returns what is to be plotted, from the bottom to the top.
@@ -89,6 +97,7 @@ std::vector<Curve> write_panel_data(std::string& script, const Panel& panel, con
   std::vector<Curve> beneath;
   std::vector<Curve> above;
   const std::vector<FailureMark> marks = failure_marks(panel, axes.x);
+  auto mark = marks.begin();  // in the order of the series
   std::size_t points = 0;
   for (const Series& series : panel.series) points += series.points.size();
   const bool share = panel.series.size() > most_datablocks;
@@ -96,45 +105,44 @@ std::vector<Curve> write_panel_data(std::string& script, const Panel& panel, con
   for (std::size_t index = 0; index < panel.series.size(); ++index) {
     const Series& series = panel.series[index];
     const std::string_view colour = colour_of(series);
-    const auto add = [&](std::string_view kind, std::span<const std::string> lines, const Look& look,
-                         bool low) {
-      if (lines.empty()) return;
+    const auto add = [&](std::string_view kind, Lines lines, const Look& look, bool low) {
+      if (lines.count == 0) return;
       std::vector<Curve>& curves = low ? beneath : above;
-      const std::string style = plot_style(look, lines.size(), points <= most_marks);
+      const std::string style = plot_style(look, lines.count, points <= most_marks);
       if (share) {
         const auto [place, fresh] = shared.try_emplace(std::pair(low, style), curves.size());
         if (!fresh) {
-          std::vector<std::string>& all = curves[place->second].lines;
-          all.emplace_back();
-          all.insert(all.end(), lines.begin(), lines.end());
+          Lines& all = curves[place->second].lines;
+          all.lift_pen();
+          all.text += lines.text;
           return;
         }
       }
-      curves.push_back({fmt::format("panel{}_{}{}", number, kind, index + 1), style,
-                        std::vector<std::string>(lines.begin(), lines.end())});
+      curves.push_back({fmt::format("panel{}_{}{}", number, kind, index + 1), style, std::move(lines)});
     };
     add("curve", curve_lines(series, axes), look_of(series), series.secondary || series.broad);
 
     for (const bool low : {true, false}) {
-      std::vector<std::string> lines;
+      Lines lines;
       for (const Point& point : series.points) {
         if (place_of(point, axes) != (low ? Place::below : Place::above)) continue;
         const double height = low ? edge_distance : axes.y.length - edge_distance;
-        lines.push_back(data_line(point.x, axes.y.value(height)));
+        lines.add(point.x, axes.y.value(height));
       }
-      add(low ? "below" : "above", lines, low ? below_look(colour) : above_look(colour), false);
+      add(low ? "below" : "above", std::move(lines), low ? below_look(colour) : above_look(colour), false);
     }
 
-    std::vector<std::string> crosses;
-    for (const FailureMark& mark : marks) {
-      if (mark.series != index) continue;
-      const double height = mark.position(axes.y.length);
-      crosses.push_back(data_line(mark.x, axes.y.value(height)));
-    }
-    add("failed", crosses, failure_look(colour, series.secondary), false);
+    Lines crosses;
+    for (; mark != marks.end() && mark->series == index; ++mark)
+      crosses.add(mark->x, axes.y.value(mark->position(axes.y.length)));
+    add("failed", std::move(crosses), failure_look(colour, series.secondary), false);
   }
-  beneath.insert(beneath.end(), above.begin(), above.end());
-  for (const Curve& curve : beneath) write_data(script, curve.name, curve.lines);
+  beneath.insert(beneath.end(), std::make_move_iterator(above.begin()), std::make_move_iterator(above.end()));
+  for (const Curve& curve : beneath) {
+    script += fmt::format("${} << EOD\n", curve.name);
+    script += curve.lines.text;
+    script += "EOD\n";
+  }
   return beneath;
 }
 
@@ -278,6 +286,11 @@ std::string terminal_commands(const std::filesystem::path& output, double width,
   }
   throw std::invalid_argument(
       fmt::format("'{}': a figure's name ends in .svg, .pdf or .png", output.string()));
+}
+
+void require_drawable(const Figure& figure, std::span<const std::filesystem::path> outputs) {
+  const Layout layout = lay_out(figure);
+  for (const std::filesystem::path& output : outputs) terminal_commands(output, layout.width, layout.height);
 }
 
 std::string gnuplot_script(const Figure& figure, std::span<const std::filesystem::path> outputs) {

@@ -8,6 +8,9 @@
 
 namespace liebench {
 
+/// Throws std::invalid_argument as draw() does.
+void require_drawable(const Figure& figure, std::span<const std::filesystem::path> outputs);
+
 /// The script that draws `figure` into `outputs`, data included. Throws std::invalid_argument as draw() does.
 std::string gnuplot_script(const Figure& figure, std::span<const std::filesystem::path> outputs);
 

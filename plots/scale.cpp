@@ -16,9 +16,17 @@ double from_axis(double value, bool logarithmic) {
   return logarithmic ? std::pow(10.0, value) : value;
 }
 
-double Scale::position(double value) const {
+double Positions::operator()(double value) const {
+  return (to_axis(value, logarithmic) - lower) / span * length;
+}
+
+Positions Scale::positions() const {
   const double lower = to_axis(range.lower, logarithmic);
-  return (to_axis(value, logarithmic) - lower) / (to_axis(range.upper, logarithmic) - lower) * length;
+  return {lower, to_axis(range.upper, logarithmic) - lower, logarithmic, length};
+}
+
+double Scale::position(double value) const {
+  return positions()(value);
 }
 
 double Scale::value(double position) const {

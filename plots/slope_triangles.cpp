@@ -281,7 +281,7 @@ std::optional<Candidate> best_place(double slope, double label_width, std::span<
 }  // namespace
 
 std::vector<SlopeTriangle> place_orders(const Panel& panel, Range x, Range y, PlotArea area) {
-  if (!panel.log_x || !panel.log_y) return {};
+  if (!panel.log_x || !panel.log_y || panel.orders.empty()) return {};
   const Axes axes{{x, true, area.width}, {y, true, area.height}};
   const double aspect = axes.y.points_per_unit() / axes.x.points_per_unit();
 

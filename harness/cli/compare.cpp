@@ -21,7 +21,7 @@ struct CompareOptions {
 bool compare(const CompareOptions& options) {
   const BadLines bad_lines = options.skip_bad_lines ? BadLines::skip : BadLines::reject;
   const auto read = [&](const std::string& file) {
-    std::vector<Json> records = read_records({std::filesystem::path(file)}, bad_lines);
+    std::vector<RecordRow> records = read_records({file}, bad_lines);
     if (records.empty()) throw InputError(file, "holds no records");
     return records;
   };

@@ -13,6 +13,7 @@
 #include "harness/progress.h"
 #include "harness/record.h"
 #include "harness/record_file.h"
+#include "harness/record_reader.h"
 #include "harness/study.h"
 #include "harness/timing.h"
 #include "harness/verification.h"
@@ -108,15 +109,17 @@ int figures(const FigureOptions& options) {
 
   if (!options.short_form) add_times(chosen, runs, ends, records);
 
-  std::map<std::string, std::vector<Json>> by_study;
-  for (std::size_t i = 0; i < runs.size(); ++i) by_study[runs[i].study].push_back(records[i]);
+  const std::vector<RecordRow> all_rows = record_rows(records);
+  std::map<std::string, std::vector<RecordRow>> by_study;
+  for (std::size_t i = 0; i < runs.size(); ++i) by_study[runs[i].study].push_back(all_rows[i]);
   std::size_t begin = 0;
   for (std::size_t number = 0; number < chosen.size(); ++number) {
     const PaperFigure& figure = chosen[number];
-    const std::vector<Json> rows(records.begin() + std::ptrdiff_t(begin),
-                                 records.begin() + std::ptrdiff_t(ends[number]));
+    const auto first = std::ptrdiff_t(begin), last = std::ptrdiff_t(ends[number]);
     begin = ends[number];
-    write_whole(out / fmt::format("{}.jsonl", figure.name), json_lines(rows));
+    write_whole(out / fmt::format("{}.jsonl", figure.name),
+                json_lines({records.begin() + first, records.begin() + last}));
+    const std::vector<RecordRow> rows(all_rows.begin() + first, all_rows.begin() + last);
     if (figure.name == "cost_accuracy") write_whole(out / "cost_accuracy.md", cost_report(rows));
     if (figure.name == "formulations") write_whole(out / "formulations.md", formulations_report(rows));
     std::filesystem::path shown = out / fmt::format("{}.jsonl", figure.name);

@@ -23,25 +23,7 @@ struct PlotOptions {
   bool skip_bad_lines = false;
 };
 
-// What the figure is made of; everything where a message names what could be drawn.
-RecordNeeds needs_of(const PlotOptions& options) {
-  if (options.kind == "drift") return RecordNeeds({"drift"});
-  std::vector<std::string> paths{"errors/" + options.y};
-  if (options.x.empty() && options.kind == "work-precision")
-    paths.insert(paths.end(), {"time/total_ns", "cost/flops", "cost/residuals"});
-  if (!options.x.empty()) {
-    const Abscissa& x = abscissa(options.x);
-    if (!x.section.empty()) paths.push_back(fmt::format("{}/{}", x.section, x.key));
-  }
-  return RecordNeeds(paths);
-}
-
-std::vector<Json> read(const PlotOptions& options, const RecordNeeds& needs) {
-  return read_records(std::vector<std::filesystem::path>(options.files.begin(), options.files.end()),
-                      options.skip_bad_lines ? BadLines::skip : BadLines::reject, needs);
-}
-
-RecordFigure make_figure(const PlotOptions& options, const std::vector<Json>& records) {
+RecordFigure make_figure(const PlotOptions& options, const std::vector<RecordRow>& records) {
   if (options.kind == "drift") {
     if (!options.x.empty() && options.x != "step_size")
       throw InputError("--x", "a drift is drawn against step_size; leave it out");
@@ -56,9 +38,8 @@ RecordFigure make_figure(const PlotOptions& options, const std::vector<Json>& re
   RecordFigure result = error_figure(records, x, {options.y, options.norm}, !options.one_panel);
   if (!result.figure.panels.empty()) return result;
   std::vector<std::string> there;
-  const std::vector<Json> all = read(options, RecordNeeds::all_but_drift());
   for (const Abscissa& other : abscissae())
-    if (!error_figure(all, other, {options.y, options.norm}, false).figure.panels.empty())
+    if (!error_figure(records, other, {options.y, options.norm}, false).figure.panels.empty())
       there.emplace_back(other.name);
   if (there.empty())
     throw InputError("--y", fmt::format("no record has an error of {}; choose another component", options.y));
@@ -67,8 +48,9 @@ RecordFigure make_figure(const PlotOptions& options, const std::vector<Json>& re
 
 void plot(const PlotOptions& options) {
   require_gnuplot();
-  // Never freed: the program ends with its answer, and freeing many records takes as long as reading them.
-  static const std::vector<Json>& records = *new std::vector<Json>(read(options, needs_of(options)));
+  const std::vector<RecordRow> records =
+      read_records(std::vector<std::filesystem::path>(options.files.begin(), options.files.end()),
+                   options.skip_bad_lines ? BadLines::skip : BadLines::reject);
   if (records.empty()) throw InputError(options.files.front(), "holds no records");
   const RecordFigure result = make_figure(options, records);
   if (result.left_out > 0)

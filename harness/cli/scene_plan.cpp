@@ -81,10 +81,12 @@ ScenePlan plan_scene(const ScenePlanOptions& options) {
         stderr,
         "the joints do not quite fit (joint \"{}\": {:.3g}); bodies were moved as little as possible\n",
         scene.gap_joint, scene.gap_before);
-  if (!scene.redundant_joints.empty())
+  std::string redundant;
+  for (const std::string& joint : scene.redundant_joints)
+    redundant += fmt::format("{}\"{}\"", redundant.empty() ? "" : ", ", joint);
+  if (!redundant.empty())
     fmt::print(stderr, "left out, for other joints imply it: {} of the constraints of {}\n",
-               std::count(scene.implied.begin(), scene.implied.end(), true),
-               quoted_list(scene.redundant_joints));
+               std::count(scene.implied.begin(), scene.implied.end(), true), redundant);
   const double t_end = options.t_end > 0.0 ? options.t_end : described.duration;
   const double steps = std::ceil(t_end / options.step_size * (1.0 - 1e-12));
   if (!(steps <= most_steps))

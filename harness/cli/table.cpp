@@ -27,7 +27,7 @@ struct TableOptions {
   std::string out;
 };
 
-Table table_of(const std::vector<Json>& records, const TableOptions& options) {
+Table table_of(const std::vector<RecordRow>& records, const TableOptions& options) {
   if (options.kind == "orders") return orders_table(records);
   if (options.kind == "outcomes") return outcomes_table(records);
   if (options.kind == "costs") {
@@ -39,27 +39,18 @@ Table table_of(const std::vector<Json>& records, const TableOptions& options) {
   }
   const Quantity quantity{options.y, options.norm};
   if (std::none_of(records.begin(), records.end(),
-                   [&](const Json& record) { return error_of(record, quantity).has_value(); }))
+                   [&](const RecordRow& record) { return error_of(record, quantity).has_value(); }))
     throw InputError("--y", fmt::format("no record has an error of {}; choose another component", options.y));
   return cost_accuracy_table(records, quantity, options.targets);
-}
-
-// What the table is made of.
-RecordNeeds needs_of(const TableOptions& options) {
-  if (options.kind == "orders") return RecordNeeds({"errors"});
-  if (options.kind == "outcomes") return RecordNeeds({});
-  if (options.kind == "costs") return RecordNeeds({"cost", "time"});
-  return RecordNeeds({"errors/" + options.y, "cost/residuals", "cost/flops", "time/total_ns"});
 }
 
 void table(const TableOptions& options) {
   for (const double target : options.targets)
     if (!std::isfinite(target) || target <= 0)
       throw InputError("--target", fmt::format("{} is not allowed; allowed: positive numbers", target));
-  // Never freed: the program ends with its answer, and freeing many records takes as long as reading them.
-  static const std::vector<Json>& records = *new std::vector<Json>(
+  const std::vector<RecordRow> records =
       read_records(std::vector<std::filesystem::path>(options.files.begin(), options.files.end()),
-                   options.skip_bad_lines ? BadLines::skip : BadLines::reject, needs_of(options)));
+                   options.skip_bad_lines ? BadLines::skip : BadLines::reject);
   if (records.empty()) throw InputError(options.files.front(), "holds no records");
   const Table result = table_of(records, options);
   const TableFormat format = options.format == "latex" ? TableFormat::latex

@@ -15,8 +15,13 @@ std::vector<Json> rows() {
   return records;
 }
 
+Comparison compared(const std::vector<Json>& before, const std::vector<Json>& after,
+                    double band = default_band) {
+  return compare_records(record_rows(before), record_rows(after), band);
+}
+
 TEST(Compare, OfASetWithItselfFindsNothing) {
-  const Comparison c = compare_records(rows(), rows());
+  const Comparison c = compared(rows(), rows());
   EXPECT_EQ(c.matched, 3u);
   EXPECT_FALSE(c.differs(true)) << report(c);
 }
@@ -24,7 +29,7 @@ TEST(Compare, OfASetWithItselfFindsNothing) {
 TEST(Compare, OtherKeysAreMatchedByWhatWasRun) {
   auto after = rows();
   for (Json& record : after) record["key"] = "new " + record["key"].get<std::string>();
-  const Comparison c = compare_records(rows(), after);
+  const Comparison c = compared(rows(), after);
   EXPECT_EQ(c.matched, 3u);
   EXPECT_FALSE(c.differs(true)) << report(c);
 }
@@ -32,7 +37,7 @@ TEST(Compare, OtherKeysAreMatchedByWhatWasRun) {
 TEST(Compare, SeesACountThatIsOneMore) {
   auto after = rows();
   after[1]["cost"]["residuals"] = after[1]["cost"]["residuals"].get<int>() + 1;
-  const Comparison c = compare_records(rows(), after);
+  const Comparison c = compared(rows(), after);
   EXPECT_EQ(c.counts.size(), 1u) << report(c);
   EXPECT_TRUE(c.differs(false));
 }
@@ -40,8 +45,8 @@ TEST(Compare, SeesACountThatIsOneMore) {
 TEST(Compare, ACountThatIsNewIsNoChangeAndOneThatIsGoneIs) {
   auto after = rows();
   after[0]["cost"]["flops"] = 7;
-  EXPECT_FALSE(compare_records(rows(), after).differs(false));
-  EXPECT_TRUE(compare_records(after, rows()).differs(false));
+  EXPECT_FALSE(compared(rows(), after).differs(false));
+  EXPECT_TRUE(compared(after, rows()).differs(false));
 }
 
 TEST(Compare, ErrorsMayDifferInsideTheBandOnly) {
@@ -49,17 +54,17 @@ TEST(Compare, ErrorsMayDifferInsideTheBandOnly) {
   Json& error = after[0]["errors"]["q"]["end_relative"];
   const double value = error.get<double>();
   error = value * (1 + 5e-7);
-  EXPECT_FALSE(compare_records(rows(), after).differs(false));
+  EXPECT_FALSE(compared(rows(), after).differs(false));
   error = value * (1 + 1e-5);
-  EXPECT_EQ(compare_records(rows(), after).errors.size(), 1u);
-  EXPECT_FALSE(compare_records(rows(), after, 1e7).differs(false));
+  EXPECT_EQ(compared(rows(), after).errors.size(), 1u);
+  EXPECT_FALSE(compared(rows(), after, 1e7).differs(false));
 }
 
 TEST(Compare, SeesOutcomesAndRowsThatComeAndGo) {
   auto after = rows();
   after[0] = sample_record({.precision = "double", .step_size = 0.01}, sample_failure());
   after[2] = power_law_record({.k = 3, .precision = "double", .step_size = 0.01}, 3);
-  const Comparison c = compare_records(rows(), after);
+  const Comparison c = compared(rows(), after);
   EXPECT_EQ(c.outcomes.size(), 1u) << report(c);
   EXPECT_EQ(c.missing.size(), 1u) << report(c);
   EXPECT_EQ(c.added.size(), 1u) << report(c);
@@ -71,7 +76,7 @@ TEST(Compare, ATimeThatChangedIsADifferenceOnlyWhenAsked) {
     before[0]["time"]["ns_per_step"]["samples"].push_back(100.0 + i);
     after[0]["time"]["ns_per_step"]["samples"].push_back(150.0 + i);
   }
-  const Comparison c = compare_records(before, after);
+  const Comparison c = compared(before, after);
   EXPECT_EQ(c.times.size(), 1u) << report(c);
   EXPECT_FALSE(c.differs(false));
   EXPECT_TRUE(c.differs(true));

@@ -26,7 +26,7 @@ std::vector<Json> curve_of(std::vector<double> errors) {
 
 // target, curve, cheapest, h, steps, residuals, scd, mescd, remark
 Row row_at(const std::vector<Json>& records, double target) {
-  return cost_accuracy_table(records, {}, {target}).rows().at(0);
+  return cost_accuracy_table(record_rows(records), {}, {target}).rows().at(0);
 }
 double step_size(const Row& row) {
   return std::get<double>(row.at(3));
@@ -87,7 +87,7 @@ TEST(CostAccuracy, MarksOneCheapestOfATarget) {
   std::vector<Json> records;
   for (const int k : {2, 3})
     for (const double h : {0.01, 0.001, 0.0001}) records.push_back(run_of(k, h, std::pow(h, k)));
-  const Table table = cost_accuracy_table(records, {}, {1e-5, 1e-7});
+  const Table table = cost_accuracy_table(record_rows(records), {}, {1e-5, 1e-7});
   ASSERT_EQ(table.rows().size(), 4u);
   for (const std::size_t first : {0u, 2u}) {
     EXPECT_EQ(std::get<std::string>(table.rows()[first].at(1)), "k = 3");
@@ -99,13 +99,13 @@ TEST(CostAccuracy, MarksOneCheapestOfATarget) {
 TEST(CostsTable, DividesTheCountsOfTheFinestRunByItsSteps) {
   auto records = curve_of({1e-2, 1e-4});
   records[1]["cost"]["commutators"] = records[1]["steps"];
-  const Table table = costs_table(records);
+  const Table table = costs_table(record_rows(records));
   ASSERT_EQ(table.rows().size(), 1u);
   EXPECT_EQ(table.columns().back().header, "commutators");
   EXPECT_EQ(std::get<double>(table.rows()[0].back()), 1.0);
   EXPECT_EQ(std::get<double>(table.rows()[0].at(1)), 0.001);
-  EXPECT_EQ(costs_table(records, 0.01).rows().size(), 1u);
-  EXPECT_TRUE(costs_table(records, 0.5).rows().empty());
+  EXPECT_EQ(costs_table(record_rows(records), 0.01).rows().size(), 1u);
+  EXPECT_TRUE(costs_table(record_rows(records), 0.5).rows().empty());
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace liebench {
 namespace {
 
 // Errors h^k, a microsecond and 1000 operations a step, whatever k is.
-std::vector<Json> study(bool timed) {
+std::vector<RecordRow> study(bool timed) {
   std::vector<Json> records;
   for (const char* formulation : {"SO3", "R3xSO3"})
     for (const int k : {2, 3})
@@ -22,7 +22,7 @@ std::vector<Json> study(bool timed) {
         if (timed) record["time"] = {{"total_ns", 1000 * steps}};
         records.push_back(std::move(record));
       }
-  return records;
+  return record_rows(records);
 }
 
 TEST(CostReport, NamesTheCheapestAndWhatItCosts) {

@@ -9,12 +9,10 @@
 namespace liebench {
 namespace {
 
-Json identity(const char* formulation, const Json& options) {
-  Json id;
-  id["formulation"] = formulation;
-  id["integrator"] = options.contains("rho_inf") ? "generalized_alpha" : "bliedf2nd";
-  id["options"] = options;
-  return id;
+CurveIdentity identity(const char* formulation, const Json& options) {
+  return {.formulation = formulation,
+          .integrator = options.contains("rho_inf") ? "generalized_alpha" : "bliedf2nd",
+          .options = SharedJson(options)};
 }
 Json bdf(int k, const char* form, bool modified) {
   Json options{{"k", k}, {"correction", true}};
@@ -46,13 +44,13 @@ TEST(ExpectedOrder, OfLambdaIsReducedFromExactVelocitiesInTheInertialFrameOnly) 
 }
 
 // Records of one curve whose errors are h^order.
-std::vector<Json> curve_records(double order) {
+std::vector<RecordRow> curve_records(double order) {
   std::vector<Json> records;
   for (int i = 0; i < 7; ++i) {
     const double h = 1e-3 * std::pow(10.0, -i / 6.0);
     records.push_back(power_law_record({.formulation = "SO3", .k = 3, .step_size = h}, order));
   }
-  return records;
+  return record_rows(records);
 }
 
 TEST(OrderMatrix, ConfirmsWhatFallsAsExpectedAndNothingElse) {
@@ -66,13 +64,13 @@ TEST(OrderMatrix, ConfirmsWhatFallsAsExpectedAndNothingElse) {
 }
 
 TEST(OrderMatrix, AnExpectedOrderOfZeroIsMetByAnErrorThatDoesNotFall) {
-  const std::vector<Json> flat = curve_records(0.0), falling = curve_records(1.0);
+  const std::vector<RecordRow> flat = curve_records(0.0), falling = curve_records(1.0);
   Curve curve;
-  for (const Json& record : flat) curve.records.push_back(&record);
+  for (const RecordRow& record : flat) curve.records.push_back(&record);
   EXPECT_TRUE(judge(curve, q_max, 0).confirmed);
   EXPECT_FALSE(judge(curve, q_max, 1).confirmed);
   curve.records.clear();
-  for (const Json& record : falling) curve.records.push_back(&record);
+  for (const RecordRow& record : falling) curve.records.push_back(&record);
   EXPECT_FALSE(judge(curve, q_max, 0).confirmed);
 }
 

@@ -43,22 +43,22 @@ TEST(Abscissa, UnknownNamesAreRefusedWithTheNearest) {
 }
 
 TEST(Abscissa, TheDearestThatAllHaveIsTaken) {
-  EXPECT_EQ(dearest_abscissa(study()).name, "time");
-  EXPECT_EQ(dearest_abscissa(study(false)).name, "flops");
+  EXPECT_EQ(dearest_abscissa(record_rows(study())).name, "time");
+  EXPECT_EQ(dearest_abscissa(record_rows(study(false))).name, "flops");
   std::vector<Json> records = study(false);
   records.back()["cost"].erase("flops");
-  EXPECT_EQ(dearest_abscissa(records).name, "residuals");
+  EXPECT_EQ(dearest_abscissa(record_rows(records)).name, "residuals");
   // A failed run has no time and needs none.
   records = study();
   records.push_back(sample_record({.precision = "double", .step_size = 0.1}, sample_failure()));
-  EXPECT_EQ(dearest_abscissa(records).name, "time");
+  EXPECT_EQ(dearest_abscissa(record_rows(records)).name, "time");
   // Nor has a run in extended precision.
   records.push_back(power_law_record({.precision = "extended", .step_size = 0.05}, 2));
-  EXPECT_EQ(dearest_abscissa(records).name, "time");
+  EXPECT_EQ(dearest_abscissa(record_rows(records)).name, "time");
 }
 
 TEST(ErrorFigure, HasAPanelForEachFormulationAndTheCostsOfTheRecords) {
-  const RecordFigure result = error_figure(study(), abscissa("time"), {}, true);
+  const RecordFigure result = error_figure(record_rows(study()), abscissa("time"), {}, true);
   EXPECT_EQ(result.left_out, 0u);
   ASSERT_EQ(result.figure.panels.size(), 2u);
   EXPECT_EQ(result.figure.rows * result.figure.columns, 2);
@@ -72,7 +72,7 @@ TEST(ErrorFigure, HasAPanelForEachFormulationAndTheCostsOfTheRecords) {
     EXPECT_DOUBLE_EQ(panel.series[0].points[0].y, 1e-4);
     EXPECT_DOUBLE_EQ(panel.series[0].points[1].x, 500e-9 * 2000);
   }
-  const RecordFigure one = error_figure(study(), abscissa("time"), {}, false);
+  const RecordFigure one = error_figure(record_rows(study()), abscissa("time"), {}, false);
   ASSERT_EQ(one.figure.panels.size(), 1u);
   EXPECT_EQ(one.figure.panels[0].series.size(), 4u);
 }
@@ -82,11 +82,11 @@ TEST(ErrorFigure, AFailedRunIsNeverDropped) {
   Json failed = sample_record({.formulation = "SO3", .k = 2, .precision = "double", .step_size = 0.1},
                               sample_failure());
   records.push_back(failed);
-  const RecordFigure by_step = error_figure(records, abscissa("step_size"), {}, true);
+  const RecordFigure by_step = error_figure(record_rows(records), abscissa("step_size"), {}, true);
   ASSERT_EQ(by_step.figure.panels[0].series[0].failures.size(), 1u);
   EXPECT_EQ(by_step.figure.panels[0].series[0].failures[0].x, 0.1);
   // It has no time: above the coarsest run of its curve.
-  const RecordFigure by_time = error_figure(records, abscissa("time"), {}, true);
+  const RecordFigure by_time = error_figure(record_rows(records), abscissa("time"), {}, true);
   const Series& series = by_time.figure.panels[0].series[0];
   ASSERT_EQ(series.failures.size(), 1u);
   EXPECT_EQ(series.failures[0].x, series.points[0].x);
@@ -98,15 +98,17 @@ TEST(ErrorFigure, AFailedRunHasNoPlaceWhereTheQuantityDoesNotExist) {
   Json failed = sample_record({.formulation = "SO3", .k = 2, .precision = "double", .step_size = 0.1},
                               sample_failure());
   records.push_back(failed);
-  const RecordFigure lambda = error_figure(records, abscissa("step_size"), {"lambda", "end_relative"}, true);
+  const RecordFigure lambda =
+      error_figure(record_rows(records), abscissa("step_size"), {"lambda", "end_relative"}, true);
   ASSERT_EQ(lambda.figure.panels.size(), 1u);
   EXPECT_EQ(lambda.figure.panels[0].title, "R3xSO3, index3");
-  EXPECT_TRUE(error_figure({failed}, abscissa("step_size"), {}, true).figure.panels.empty());
+  EXPECT_TRUE(error_figure({row_of(failed)}, abscissa("step_size"), {}, true).figure.panels.empty());
 }
 
 TEST(ErrorFigure, CurvesThatShareAPanelLookDifferent) {
   std::vector<Json> records = study();
-  const auto series = error_figure(records, abscissa("step_size"), {}, false).figure.panels.at(0).series;
+  const auto series =
+      error_figure(record_rows(records), abscissa("step_size"), {}, false).figure.panels.at(0).series;
   std::set<std::tuple<int, bool, int>> looks;
   for (const Series& each : series) looks.emplace(each.style, each.secondary, each.mark);
   EXPECT_EQ(looks.size(), series.size());
@@ -115,16 +117,16 @@ TEST(ErrorFigure, CurvesThatShareAPanelLookDifferent) {
 TEST(ErrorFigure, RecordsWithoutTheCostAreCounted) {
   std::vector<Json> records = study();
   records[0].erase("time");
-  EXPECT_EQ(error_figure(records, abscissa("time"), {}, true).left_out, 1u);
+  EXPECT_EQ(error_figure(record_rows(records), abscissa("time"), {}, true).left_out, 1u);
 }
 
 TEST(DriftFigure, HasAPanelForEachInvariantThatApplies) {
   std::vector<Json> constrained, free;
   for (const Json& record : study())
     (record.at("formulation") == "SO3" ? free : constrained).push_back(record);
-  EXPECT_EQ(drift_figure(constrained).figure.panels.size(), 5u);
-  EXPECT_EQ(drift_figure(free).figure.panels.size(), 3u);
-  EXPECT_TRUE(drift_figure({sample_record({}, sample_failure())}).figure.panels.empty());
+  EXPECT_EQ(drift_figure(record_rows(constrained)).figure.panels.size(), 5u);
+  EXPECT_EQ(drift_figure(record_rows(free)).figure.panels.size(), 3u);
+  EXPECT_TRUE(drift_figure({row_of(sample_record({}, sample_failure()))}).figure.panels.empty());
 }
 
 }  // namespace

@@ -220,10 +220,10 @@ TEST(Records, AreReadBackInTheirOrder) {
   Json other = good_record();
   other["key"] = std::string(32, 'a');
   const std::string text = failed_record().dump() + "\n\n" + other.dump() + "\n";
-  const auto records = read_records(folder.write("a.jsonl", text));
+  const auto records = read_records({folder.write("a.jsonl", text)});
   ASSERT_EQ(records.size(), 2u);
-  EXPECT_EQ(records[0]["outcome"], failed_record()["outcome"]);
-  EXPECT_EQ(records[1]["errors"].dump(), good_record()["errors"].dump());
+  EXPECT_EQ(records[0].outcome, failed_record()["outcome"]);
+  EXPECT_EQ(records[1][record_number("errors/q/end_relative")], good_record()["errors"]["q"]["end_relative"]);
 }
 
 TEST(Records, OfTwoVersionsOfARowTheLaterCountsInThePlaceOfTheFirst) {
@@ -232,9 +232,9 @@ TEST(Records, OfTwoVersionsOfARowTheLaterCountsInThePlaceOfTheFirst) {
   timed["time"] = {{"total_ns", 1.0}};
   other["key"] = std::string(32, 'a');
   const auto records = read_records(
-      folder.write("a.jsonl", good_record().dump() + "\n" + other.dump() + "\n" + timed.dump() + "\n"));
+      {folder.write("a.jsonl", good_record().dump() + "\n" + other.dump() + "\n" + timed.dump() + "\n")});
   ASSERT_EQ(records.size(), 2u);
-  EXPECT_TRUE(records[0].contains("time"));
+  EXPECT_EQ(records[0][record_number("time/total_ns")], 1.0);
 }
 
 TEST(Records, OfAnotherKindAreRefusedWithFileAndLine) {
@@ -251,7 +251,7 @@ TEST(Records, OfAnotherKindAreRefusedWithFileAndLine) {
         std::string("{\"schema\": 1, \"key\": \"x\"}"), std::string("{\"schema\": 1, \"key\": 3}")}) {
     const auto file = folder.write("a.jsonl", good + line + "\n" + good);
     try {
-      read_records(file);
+      read_records({file});
       ADD_FAILURE() << "accepted: " << line.substr(0, 80);
     } catch (const InputError& error) {
       EXPECT_EQ(std::string(error.what()).find((file.string() + ":2").c_str()), 0u) << error.what();
@@ -261,8 +261,8 @@ TEST(Records, OfAnotherKindAreRefusedWithFileAndLine) {
 
 TEST(Records, OfAFileThatIsNotThereAreRefused) {
   const TemporaryFolder folder;
-  EXPECT_THROW(read_records(folder / "absent.jsonl"), InputError);
-  EXPECT_THROW(read_records(folder.path()), InputError);
+  EXPECT_THROW(read_records({folder / "absent.jsonl"}), InputError);
+  EXPECT_THROW(read_records({folder.path()}), InputError);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "harness/record.h"
+#include "harness/record_reader.h"
 #include "harness/study.h"
 
 // Records made by make_record without a run: their numbers are the test's.
@@ -80,6 +81,10 @@ inline RunResult sample_failure() {
 
 inline Json sample_record(const SampleRun& sample, const RunResult& result) {
   return make_record(sample_spec(sample), result, NoProblem(), sample_provenance());
+}
+
+inline RecordRow row_of(const Json& record) {
+  return record_rows({record}).front();
 }
 
 // A run whose error in q, v and lambda is that step size to the power `order`.

@@ -16,16 +16,16 @@ std::vector<Json> two_curves() {
 }
 
 TEST(OrdersTable, HasARowForEveryErrorThatACurveHas) {
-  EXPECT_EQ(orders_table(two_curves()).rows().size(), 12u);  // 2 curves, 3 components, 2 norms
+  EXPECT_EQ(orders_table(record_rows(two_curves())).rows().size(), 12u);  // 2 curves, 3 components, 2 norms
   std::vector<Json> unconstrained;
   for (const double h : {0.01, 0.005, 0.0025, 0.00125})
     unconstrained.push_back(power_law_record({.formulation = "SO3", .step_size = h}, 2));
-  EXPECT_EQ(orders_table(unconstrained).rows().size(), 4u);
-  EXPECT_EQ(orders_table({sample_record({}, sample_failure())}).rows().size(), 0u);
+  EXPECT_EQ(orders_table(record_rows(unconstrained)).rows().size(), 4u);
+  EXPECT_EQ(orders_table(record_rows({sample_record({}, sample_failure())})).rows().size(), 0u);
 }
 
 TEST(OrdersTable, ShowsTheOrderOfEachCurve) {
-  const Table table = orders_table(two_curves());
+  const Table table = orders_table(record_rows(two_curves()));
   for (const Row& row : table.rows()) {
     const double expected = std::get<std::string>(row.at(0)) == "k = 2" ? 2.0 : 3.0;
     EXPECT_NEAR(std::get<double>(row.at(2)), expected, 1e-6);
@@ -36,8 +36,8 @@ TEST(OrdersTable, ShowsTheOrderOfEachCurve) {
 }
 
 TEST(OrdersTable, SaysWhyThereIsNoOrder) {
-  const Table table =
-      orders_table({power_law_record({.step_size = 0.01}, 2), power_law_record({.step_size = 0.005}, 2)});
+  const Table table = orders_table(
+      record_rows({power_law_record({.step_size = 0.01}, 2), power_law_record({.step_size = 0.005}, 2)}));
   ASSERT_FALSE(table.rows().empty());
   for (const Row& row : table.rows()) {
     EXPECT_TRUE(std::holds_alternative<std::monostate>(row.at(2)));
@@ -53,7 +53,7 @@ TEST(OutcomesTable, CountsEveryRunOnce) {
   other.outcome = Outcome::rotation_too_large;
   other.failure->time = 1.5;
   records.push_back(sample_record({.k = 3, .step_size = 0.04}, other));
-  const Table table = outcomes_table(records);
+  const Table table = outcomes_table(record_rows(records));
   std::int64_t runs = 0;
   std::vector<std::string> rows;
   for (const Row& row : table.rows()) {
