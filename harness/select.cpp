@@ -104,9 +104,11 @@ void label(std::vector<Curve>& curves) {
       if (!name.differs && !same_text(*name.first, leaf)) name.differs = name.first->shown() != leaf.shown();
     }
   }
+  // The hash of a scene's content tells those apart only whose names do not.
+  constexpr std::string_view hash = "content";
   std::set<std::string_view> named;
   for (const auto& [name, what] : seen)
-    if (what.differs) named.insert(name);
+    if (what.differs && name != hash) named.insert(name);
   std::set<std::string_view> labels;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     curves[i].label = label_of(curves[i], leaves[i], named);
@@ -114,7 +116,7 @@ void label(std::vector<Curve>& curves) {
   }
   if (labels.size() == curves.size()) return;
   for (const auto& [name, what] : seen)
-    if (what.holders < curves.size()) named.insert(name);
+    if (what.holders < curves.size() || (what.differs && name == hash)) named.insert(name);
   for (std::size_t i = 0; i < curves.size(); ++i) curves[i].label = label_of(curves[i], leaves[i], named);
 }
 

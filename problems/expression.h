@@ -39,6 +39,18 @@ class Expression {
     const auto refuse = [&](const std::string& why) {
       throw std::invalid_argument("expression '" + text_ + "': " + why);
     };
+    // muParser takes "t = 1" for an assignment whose value is 1.
+    for (std::size_t i = 0; i < text_.size(); ++i) {
+      const auto is = [&](std::size_t j, const char* characters) {
+        return j < text_.size() && std::string(characters).find(text_[j]) != std::string::npos;
+      };
+      if (text_[i] != '=') continue;
+      if (is(i + 1, "=")) {
+        ++i;
+      } else if (i == 0 || !is(i - 1, "<>!")) {
+        refuse("assigns; \"==\" compares (position " + std::to_string(i) + ")");
+      }
+    }
     try {
       t_ = 0.0;
       parser_.SetExpr(text_);
