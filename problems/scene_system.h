@@ -186,7 +186,6 @@ class SceneSystem {
   // The constraint gradient alone.
   template <class Sink>
   void gradient(const Element& q, Sink& sink) const {
-    const Tangent zero = Tangent::Constant(group().size(), T(0.0));
     each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
       const Pair<T> pair = states(c.a, c.b, q, nullptr);
       gradient_pieces(c, pair, sink);

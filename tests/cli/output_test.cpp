@@ -42,8 +42,16 @@ class OutputTest : public ProgramTest {
 
 TEST_F(OutputTest, OfHelpIsAsExpected) {
   std::string text;
-  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
-           {}, {"figures"}, {"run"}, {"table"}, {"plot"}, {"compare"}, {"list"}, {"describe"}}) {
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{{},
+                                                                                       {"figures"},
+                                                                                       {"run"},
+                                                                                       {"simulate"},
+                                                                                       {"effects"},
+                                                                                       {"table"},
+                                                                                       {"plot"},
+                                                                                       {"compare"},
+                                                                                       {"list"},
+                                                                                       {"describe"}}) {
     std::vector<std::string> arguments = command;
     arguments.push_back("--help");
     text += fmt::format("$ liebench {}\n", fmt::join(arguments, " ")) + output(arguments);
@@ -54,7 +62,8 @@ TEST_F(OutputTest, OfHelpIsAsExpected) {
 
 TEST_F(OutputTest, OfHelpNamesEveryCommand) {
   const std::string text = output({"--help"});
-  for (const char* command : {"figures", "run", "table", "plot", "compare", "list", "describe", "--version"})
+  for (const char* command :
+       {"figures", "run", "simulate", "effects", "table", "plot", "compare", "list", "describe", "--version"})
     EXPECT_TRUE(contains(text, command)) << command;
 }
 

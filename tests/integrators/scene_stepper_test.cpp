@@ -52,6 +52,8 @@ template <template <class> class System>
 void expect_heavy_top(BodyKind kind) {
   HeavyTopParameters p;
   p.angular_velocity = {0.0, 15.0, -0.461538};
+  // The weight of a scene is formed in double: m gamma without rounding.
+  p.gravity = {0.0, 0.0, -9.8125};
   const Audited<System<Extended>> top{System<Extended>(p)};
   const auto scene = run_time_scene<Extended>(heavy_top_scene(kind, p));
   for (const MethodOptions& options : some_methods()) {
@@ -84,9 +86,14 @@ SceneDescription two_rods() {
     scene.bodies[i].velocity.setZero();
     scene.bodies[i].angular_velocity.setZero();
   }
-  JointDescription pin{.name = "pin", .kind = JointKind::spherical, .a = -1, .b = 0};
+  JointDescription pin, hinge;
+  pin.name = "pin";
+  pin.b = 0;
   pin.point_b = {-0.5, 0.0, 0.0};
-  JointDescription hinge{.name = "hinge", .kind = JointKind::revolute, .a = 0, .b = 1};
+  hinge.name = "hinge";
+  hinge.kind = JointKind::revolute;
+  hinge.a = 0;
+  hinge.b = 1;
   hinge.point_a = {0.5, 0.0, 0.0};
   hinge.point_b = {-0.5, 0.0, 0.0};
   hinge.axis_a = hinge.axis_b = {0.0, 1.0, 0.0};

@@ -28,10 +28,13 @@ inline SceneDescription heavy_top_scene(BodyKind kind, const HeavyTopParameters&
   top.angular_velocity = omega;
   top.velocity = omega.cross(X);
   scene.bodies.push_back(top);
-  if (!has_fixed_point(kind))
-    scene.joints.push_back(
-        {.name = "tip", .kind = JointKind::spherical, .a = -1, .b = 0, .point_a = {}, .point_b = -X});
-  if (!has_fixed_point(kind)) scene.joints.back().point_a.setZero();
+  if (!has_fixed_point(kind)) {
+    JointDescription tip;
+    tip.name = "tip";
+    tip.b = 0;
+    tip.point_b = -X;
+    scene.joints.push_back(tip);
+  }
   std::get<std::vector<Placed<UniformGravity<double>>>>(scene.effects)
       .push_back({UniformGravity<double>{p.mass * vector(p.gravity)}, 0, -1});
   return scene;
