@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "groups/counted.h"
+#include "groups/flattened.h"
 #include "groups/scalar.h"
 
 namespace liebench {
@@ -181,47 +182,51 @@ class PatternedMatrix {
     }
   }
 
-  [[gnu::flatten]] bool factorize_dense() {
-    using std::abs;
-    const Eigen::Index n = size_;
-    rows_.resize(std::size_t(n));
-    inverse_pivots_.resize(std::size_t(n));
-    T* const A = matrix_.data();
-    for (Eigen::Index j = 0; j < n; ++j) {
-      T* const pivots = A + j * n;
-      Eigen::Index pivot = j;
-      for (Eigen::Index i = j + 1; i < n; ++i)
-        if (abs(pivots[pivot]) < abs(pivots[i])) pivot = i;
-      if (!(T(0.0) < abs(pivots[pivot])) || !std::isfinite(to_double(pivots[pivot]))) return false;
-      rows_[std::size_t(j)] = pivot;
-      if (pivot != j)
-        for (Eigen::Index c = 0; c < n; ++c) std::swap(A[c * n + j], A[c * n + pivot]);
-      inverse_pivots_[std::size_t(j)] = T(1.0) / pivots[j];
-      for (Eigen::Index i = j + 1; i < n; ++i) pivots[i] /= pivots[j];
-      for (Eigen::Index c = j + 1; c < n; ++c) {
-        T* const column = A + c * n;
-        const T factor = column[j];
-        if (factor == T(0.0)) continue;
-        for (Eigen::Index i = j + 1; i < n; ++i) column[i] -= factor * pivots[i];
+  bool factorize_dense() {
+    return inlined<T>([&] {
+      using std::abs;
+      const Eigen::Index n = size_;
+      rows_.resize(std::size_t(n));
+      inverse_pivots_.resize(std::size_t(n));
+      T* const A = matrix_.data();
+      for (Eigen::Index j = 0; j < n; ++j) {
+        T* const pivots = A + j * n;
+        Eigen::Index pivot = j;
+        for (Eigen::Index i = j + 1; i < n; ++i)
+          if (abs(pivots[pivot]) < abs(pivots[i])) pivot = i;
+        if (!(T(0.0) < abs(pivots[pivot])) || !std::isfinite(to_double(pivots[pivot]))) return false;
+        rows_[std::size_t(j)] = pivot;
+        if (pivot != j)
+          for (Eigen::Index c = 0; c < n; ++c) std::swap(A[c * n + j], A[c * n + pivot]);
+        inverse_pivots_[std::size_t(j)] = T(1.0) / pivots[j];
+        for (Eigen::Index i = j + 1; i < n; ++i) pivots[i] /= pivots[j];
+        for (Eigen::Index c = j + 1; c < n; ++c) {
+          T* const column = A + c * n;
+          const T factor = column[j];
+          if (factor == T(0.0)) continue;
+          for (Eigen::Index i = j + 1; i < n; ++i) column[i] -= factor * pivots[i];
+        }
       }
-    }
-    return true;
+      return true;
+    });
   }
   template <class Vector>
-  [[gnu::flatten]] void solve_dense(Vector& b) const {
-    const Eigen::Index n = size_;
-    const T* const A = matrix_.data();
-    T* const x = b.data();
-    for (Eigen::Index j = 0; j < n; ++j) std::swap(x[j], x[rows_[std::size_t(j)]]);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const T factor = x[j];
-      for (Eigen::Index i = j + 1; i < n; ++i) x[i] -= A[j * n + i] * factor;
-    }
-    for (Eigen::Index j = n; j-- > 0;) {
-      const T factor = x[j] * inverse_pivots_[std::size_t(j)];
-      x[j] = factor;
-      for (Eigen::Index i = 0; i < j; ++i) x[i] -= A[j * n + i] * factor;
-    }
+  void solve_dense(Vector& b) const {
+    return inlined<T>([&] {
+      const Eigen::Index n = size_;
+      const T* const A = matrix_.data();
+      T* const x = b.data();
+      for (Eigen::Index j = 0; j < n; ++j) std::swap(x[j], x[rows_[std::size_t(j)]]);
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const T factor = x[j];
+        for (Eigen::Index i = j + 1; i < n; ++i) x[i] -= A[j * n + i] * factor;
+      }
+      for (Eigen::Index j = n; j-- > 0;) {
+        const T factor = x[j] * inverse_pivots_[std::size_t(j)];
+        x[j] = factor;
+        for (Eigen::Index i = 0; i < j; ++i) x[i] -= A[j * n + i] * factor;
+      }
+    });
   }
 
   Eigen::Index size_;

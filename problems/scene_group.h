@@ -7,6 +7,7 @@
 
 #include "groups/audited_group.h"
 #include "groups/block_diagonal.h"
+#include "groups/flattened.h"
 #include "problems/scene_bodies.h"
 
 namespace liebench {
@@ -48,21 +49,25 @@ class SceneGroup {
     each([&]<class G>(G, const Body<T>& b) { put<G>(result, b, G::identity()); });
     return result;
   }
-  [[gnu::flatten]] Element compose(const Element& p, const Element& q) const {
-    Element result(coordinates());
-    each([&]<class G>(G, const Body<T>& b) { put<G>(result, b, G::compose(at<G>(p, b), at<G>(q, b))); });
-    return result;
+  Element compose(const Element& p, const Element& q) const {
+    return inlined<T>([&]() -> Element {
+      Element result(coordinates());
+      each([&]<class G>(G, const Body<T>& b) { put<G>(result, b, G::compose(at<G>(p, b), at<G>(q, b))); });
+      return result;
+    });
   }
   Element inverse(const Element& q) const {
     Element result(coordinates());
     each([&]<class G>(G, const Body<T>& b) { put<G>(result, b, G::inverse(at<G>(q, b))); });
     return result;
   }
-  [[gnu::flatten]] Element exp(const Tangent& v) const {
-    count(&GroupCalls::exp);
-    Element result(coordinates());
-    each([&]<class G>(G, const Body<T>& b) { put<G>(result, b, G::exp(part<G>(v, b))); });
-    return result;
+  Element exp(const Tangent& v) const {
+    return inlined<T>([&]() -> Element {
+      count(&GroupCalls::exp);
+      Element result(coordinates());
+      each([&]<class G>(G, const Body<T>& b) { put<G>(result, b, G::exp(part<G>(v, b))); });
+      return result;
+    });
   }
   Tangent log(const Element& q) const {
     count(&GroupCalls::log);
@@ -70,13 +75,15 @@ class SceneGroup {
     each([&]<class G>(G, const Body<T>& b) { part<G>(result, b) = G::log(at<G>(q, b)); });
     return result;
   }
-  [[gnu::flatten]] Tangent commutator(const Tangent& v, const Tangent& w) const {
-    count(&GroupCalls::commutators);
-    Tangent result(size());
-    each([&]<class G>(G, const Body<T>& b) {
-      part<G>(result, b) = G::commutator(part<G>(v, b), part<G>(w, b));
+  Tangent commutator(const Tangent& v, const Tangent& w) const {
+    return inlined<T>([&]() -> Tangent {
+      count(&GroupCalls::commutators);
+      Tangent result(size());
+      each([&]<class G>(G, const Body<T>& b) {
+        part<G>(result, b) = G::commutator(part<G>(v, b), part<G>(w, b));
+      });
+      return result;
     });
-    return result;
   }
   Tangent tangent_times(const Tangent& v, const Tangent& w) const {
     count(&GroupCalls::tangent);

@@ -82,25 +82,29 @@ class SceneSystem {
   Element initial_configuration() const { return model_->q; }
   Tangent initial_velocity() const { return model_->v; }
 
-  [[gnu::flatten]] Tangent momentum(const Element&, const Tangent& w) const {
-    Tangent p(w.size());
-    for (const Body<T>& body : model_->bodies) body.add_momentum(w, p);
-    return p;
-  }
-  [[gnu::flatten]] Tangent force(const T& t, const Element& q, const Tangent& v) const {
-    Tangent g = Tangent::Constant(v.size(), T(0.0));
-    Tangent applied = g;
-    each_effect([&](const auto& placed) {
-      const auto& effect = placed.effect;
-      Pair<T> pair = states(placed.a, placed.b, q, &v);
-      effect.template add_wrenches<T>(t, pair.a, pair.b, pair.on_a, pair.on_b);
-      add(placed.a, pair.a, pair.on_a, applied);
-      if constexpr (std::remove_cvref_t<decltype(effect)>::two_bodies)
-        add(placed.b, pair.b, pair.on_b, applied);
+  Tangent momentum(const Element&, const Tangent& w) const {
+    return inlined<T>([&]() -> Tangent {
+      Tangent p(w.size());
+      for (const Body<T>& body : model_->bodies) body.add_momentum(w, p);
+      return p;
     });
-    for (const Body<T>& body : model_->bodies)
-      if (body.has_inertial_forces()) body.add_inertial(v, g);
-    return g - applied;
+  }
+  Tangent force(const T& t, const Element& q, const Tangent& v) const {
+    return inlined<T>([&]() -> Tangent {
+      Tangent g = Tangent::Constant(v.size(), T(0.0));
+      Tangent applied = g;
+      each_effect([&](const auto& placed) {
+        const auto& effect = placed.effect;
+        Pair<T> pair = states(placed.a, placed.b, q, &v);
+        effect.template add_wrenches<T>(t, pair.a, pair.b, pair.on_a, pair.on_b);
+        add(placed.a, pair.a, pair.on_a, applied);
+        if constexpr (std::remove_cvref_t<decltype(effect)>::two_bodies)
+          add(placed.b, pair.b, pair.on_b, applied);
+      });
+      for (const Body<T>& body : model_->bodies)
+        if (body.has_inertial_forces()) body.add_inertial(v, g);
+      return g - applied;
+    });
   }
   T energy(const Element& q, const Tangent& v) const {
     T sum = T(0.5) * v.dot(momentum(q, v));
@@ -123,13 +127,15 @@ class SceneSystem {
     return model_->vertical.dot(sum);
   }
 
-  [[gnu::flatten]] Multipliers constraint(const T& t, const Element& q) const {
-    Multipliers phi(multipliers());
-    each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
-      const Pair<T> pair = states(c.a, c.b, q, nullptr);
-      c.scatter(c.constraint.template residual<T>(t, pair.a, pair.b), phi);
+  Multipliers constraint(const T& t, const Element& q) const {
+    return inlined<T>([&]() -> Multipliers {
+      Multipliers phi(multipliers());
+      each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
+        const Pair<T> pair = states(c.a, c.b, q, nullptr);
+        c.scatter(c.constraint.template residual<T>(t, pair.a, pair.b), phi);
+      });
+      return phi;
     });
-    return phi;
   }
   Multipliers constraint_rate(const T& t, const Element& q, const Tangent& v) const {
     return rate(t, q, v, true);
@@ -152,16 +158,18 @@ class SceneSystem {
     });
     return z;
   }
-  [[gnu::flatten]] Tangent constraint_force(const Element& q, const Multipliers& lambda) const {
-    Tangent forces = Tangent::Constant(group().size(), T(0.0));
-    each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
-      Pair<T> pair = states(c.a, c.b, q, nullptr);
-      c.constraint.template add_wrenches<T>(pair.a, pair.b, c.template gathered<T>(lambda), pair.on_a,
-                                            pair.on_b);
-      add(c.a, pair.a, pair.on_a, forces);
-      add(c.b, pair.b, pair.on_b, forces);
+  Tangent constraint_force(const Element& q, const Multipliers& lambda) const {
+    return inlined<T>([&]() -> Tangent {
+      Tangent forces = Tangent::Constant(group().size(), T(0.0));
+      each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
+        Pair<T> pair = states(c.a, c.b, q, nullptr);
+        c.constraint.template add_wrenches<T>(pair.a, pair.b, c.template gathered<T>(lambda), pair.on_a,
+                                              pair.on_b);
+        add(c.a, pair.a, pair.on_a, forces);
+        add(c.b, pair.b, pair.on_b, forces);
+      });
+      return forces;
     });
-    return forces;
   }
 
   // The pieces of Newton and saddle point matrices, each with the place where it belongs:
@@ -235,13 +243,15 @@ class SceneSystem {
   void add(int body, const State& s, const Wrench<T>& wrench, Tangent& forces) const {
     if (body >= 0) model_->bodies[std::size_t(body)].add(s, wrench, forces);
   }
-  [[gnu::flatten]] Multipliers rate(const T& t, const Element& q, const Tangent& v, bool moving) const {
-    Multipliers r(multipliers());
-    each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
-      const Pair<T> pair = states(c.a, c.b, q, &v);
-      c.scatter(c.constraint.template rate<T>(t, pair.a, pair.b, moving), r);
+  Multipliers rate(const T& t, const Element& q, const Tangent& v, bool moving) const {
+    return inlined<T>([&]() -> Multipliers {
+      Multipliers r(multipliers());
+      each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
+        const Pair<T> pair = states(c.a, c.b, q, &v);
+        c.scatter(c.constraint.template rate<T>(t, pair.a, pair.b, moving), r);
+      });
+      return r;
     });
-    return r;
   }
 
   // D(A^T w) for the wrench w on body i as a function of the pose (K) and the velocity (C) of body j, with the sign.

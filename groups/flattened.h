@@ -1,0 +1,26 @@
+#pragma once
+
+#include <type_traits>
+
+namespace liebench {
+
+namespace detail {
+
+template <class Function>
+[[gnu::noinline, gnu::flatten]] auto flattened(const Function& function) {
+  return function();
+}
+
+}  // namespace detail
+
+// function() with all that it calls inlined: in double, where small matrices in registers pay; elsewhere, and under
+// AddressSanitizer, whose checks would make one function of it that takes minutes to compile, as it stands.
+template <class T, class Function>
+auto inlined(const Function& function) {
+#ifndef __SANITIZE_ADDRESS__
+  if constexpr (std::is_same_v<T, double>) return detail::flattened(function);
+#endif
+  return function();
+}
+
+}  // namespace liebench
