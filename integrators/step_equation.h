@@ -89,9 +89,12 @@ class StepEquation {
     const Velocity<S>& v = p.values.velocity;
     change(r, system) = system.momentum(p.q, p.values.scaled_acceleration) + h * system.force(t, p.q, v);
     if constexpr (l != 0) {
-      const Multipliers<S> multipliers = scaled_lambda(z, system);
-      change(r, system) += system.constraint_force(p.q, multipliers);
-      scaled_lambda(r, system) = constraint_at(system, t, p.q) / h;
+      // Of a size known at run time there may be none.
+      if (multiplier_size(system) != 0) {
+        const Multipliers<S> multipliers = scaled_lambda(z, system);
+        change(r, system) += system.constraint_force(p.q, multipliers);
+        scaled_lambda(r, system) = constraint_at(system, t, p.q) / h;
+      }
     }
     if constexpr (stabilized) eta(r, system) = constraint_rate(system, t, p.q, v);
   }
