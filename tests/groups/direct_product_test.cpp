@@ -20,10 +20,13 @@ using TwoJoints = DirectProduct<SO3<double>, DirectProduct<RealSpace<double, 1>,
 using QuaternionBody = DirectProduct<RealSpace<double, 3>, S3<double>>;
 using ExtendedQuaternionBody = DirectProduct<RealSpace<Extended, 3>, S3<Extended>>;
 
-using ProductGroups = ::testing::Types<Body, ExtendedBody, TwoJoints, QuaternionBody, ExtendedQuaternionBody>;
-INSTANTIATE_TYPED_TEST_SUITE_P(DirectProduct, LieGroupProperties, ProductGroups);
-
 namespace {
+
+[[maybe_unused]] const bool tested =
+    test_lie_group<Body>("DirectProduct") && test_lie_group<ExtendedBody>("DirectProductExtended") &&
+    test_lie_group<TwoJoints>("NestedProduct") &&
+    test_lie_group<QuaternionBody>("DirectProductOfQuaternions") &&
+    test_lie_group<ExtendedQuaternionBody>("DirectProductOfQuaternionsExtended");
 
 Eigen::Matrix<double, 6, 1> six(double a, double b, double c, double d, double e, double f) {
   Eigen::Matrix<double, 6, 1> v;

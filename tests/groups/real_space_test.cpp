@@ -7,10 +7,10 @@
 
 namespace liebench {
 
-using LinearGroups = ::testing::Types<RealSpace<double, 3>, RealSpace<Extended, 2>>;
-INSTANTIATE_TYPED_TEST_SUITE_P(RealSpace, LieGroupProperties, LinearGroups);
-
 namespace {
+
+[[maybe_unused]] const bool tested = test_lie_group<RealSpace<double, 3>>("RealSpace") &&
+                                     test_lie_group<RealSpace<Extended, 2>>("RealSpaceExtended");
 
 TEST(RealSpace, ExpIsTheIdentityMapAndTangentTheIdentityMatrix) {
   using G = RealSpace<double, 4>;

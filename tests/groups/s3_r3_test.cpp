@@ -7,10 +7,10 @@
 
 namespace liebench {
 
-using S3R3Groups = ::testing::Types<S3R3<double>, S3R3<Extended>>;
-INSTANTIATE_TYPED_TEST_SUITE_P(S3R3, LieGroupProperties, S3R3Groups);
-
 namespace {
+
+[[maybe_unused]] const bool tested =
+    test_lie_group<S3R3<double>>("S3R3") && test_lie_group<S3R3<Extended>>("S3R3Extended");
 
 // The same motions as those of SE(3), on another representation: what the algebra gives is equal bit by bit.
 TEST(S3R3, IsSE3WithQuaternions) {

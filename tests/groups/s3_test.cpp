@@ -9,10 +9,10 @@
 
 namespace liebench {
 
-using S3Groups = ::testing::Types<S3<double>, S3<Extended>>;
-INSTANTIATE_TYPED_TEST_SUITE_P(S3, LieGroupProperties, S3Groups);
-
 namespace {
+
+[[maybe_unused]] const bool tested =
+    test_lie_group<S3<double>>("S3") && test_lie_group<S3<Extended>>("S3Extended");
 
 using Vector = Eigen::Vector3d;
 constexpr double eps = 2.3e-16;

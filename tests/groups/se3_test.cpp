@@ -10,10 +10,10 @@
 
 namespace liebench {
 
-using SE3Groups = ::testing::Types<SE3<double>, SE3<Extended>>;
-INSTANTIATE_TYPED_TEST_SUITE_P(SE3, LieGroupProperties, SE3Groups);
-
 namespace {
+
+[[maybe_unused]] const bool tested =
+    test_lie_group<SE3<double>>("SE3") && test_lie_group<SE3<Extended>>("SE3Extended");
 
 using Motions = SE3<double>;
 

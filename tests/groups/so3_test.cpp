@@ -12,10 +12,10 @@
 
 namespace liebench {
 
-using RotationGroups = ::testing::Types<SO3<double>, SO3<Extended>>;
-INSTANTIATE_TYPED_TEST_SUITE_P(SO3, LieGroupProperties, RotationGroups);
-
 namespace {
+
+[[maybe_unused]] const bool tested =
+    test_lie_group<SO3<double>>("SO3") && test_lie_group<SO3<Extended>>("SO3Extended");
 
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;

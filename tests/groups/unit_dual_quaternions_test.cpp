@@ -8,11 +8,11 @@
 
 namespace liebench {
 
-using UnitDualQuaternionsGroups =
-    ::testing::Types<UnitDualQuaternions<double>, UnitDualQuaternions<Extended>>;
-INSTANTIATE_TYPED_TEST_SUITE_P(UnitDualQuaternions, LieGroupProperties, UnitDualQuaternionsGroups);
-
 namespace {
+
+[[maybe_unused]] const bool tested =
+    test_lie_group<UnitDualQuaternions<double>>("UnitDualQuaternions") &&
+    test_lie_group<UnitDualQuaternions<Extended>>("UnitDualQuaternionsExtended");
 
 using G = UnitDualQuaternions<double>;
 constexpr double eps = 2.3e-16;
