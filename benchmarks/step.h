@@ -143,5 +143,6 @@ void add_pair(const std::string& name, const MethodOptions& options) {
 void add_bliedf2nd();
 void add_generalized_alpha();
 void add_faltinsen_bdf();
+void add_scenes();
 
 }  // namespace liebench::benchmarks

@@ -6,6 +6,12 @@ namespace liebench {
 
 namespace detail {
 
+#ifdef LIEBENCH_SANITIZED  // by the build, in the preset asan
+inline constexpr bool sanitized = true;
+#else
+inline constexpr bool sanitized = false;
+#endif
+
 template <class Function>
 [[gnu::noinline, gnu::flatten]] auto flattened(const Function& function) {
   return function();
@@ -17,9 +23,7 @@ template <class Function>
 // AddressSanitizer, whose checks would make one function of it that takes minutes to compile, as it stands.
 template <class T, class Function>
 auto inlined(const Function& function) {
-#ifndef __SANITIZE_ADDRESS__
-  if constexpr (std::is_same_v<T, double>) return detail::flattened(function);
-#endif
+  if constexpr (std::is_same_v<T, double> && !detail::sanitized) return detail::flattened(function);
   return function();
 }
 

@@ -131,6 +131,7 @@ Json make_record(const RunSpec& run, const RunResult& result, const PreparedProb
     errors["v"] = norms(*result.v);
     if (result.lambda) errors["lambda"] = norms(*result.lambda);
   }
+  if (result.agreement_time) j["agreement_time"] = run.t_0 + *result.agreement_time;
   if (result.drift) j["drift"] = drift(*result.drift);
   j["cost"] = cost_to_json(result.cost);
   j["provenance"] = provenance;

@@ -147,7 +147,7 @@ void require_record(const Json& record, const std::string& place) {
   for (const char* key : {"step_size", "steps", "t_0", "t_end"}) require(record, key, &Json::is_number);
   require(record["reference"], "error_estimate", &Json::is_number);
   if (record["outcome"] == "ok") {
-    require(record, "errors", &Json::is_object);
+    if (!record.contains("agreement_time")) require(record, "errors", &Json::is_object);
   } else {
     require(record, "failure", &Json::is_object);
     require(record["failure"], "time", &Json::is_number);
@@ -235,7 +235,7 @@ class Handler {
          {record_number("step_size"), record_number("steps"), record_number("reference/error_estimate")})
       if (!row_[needed]) return false;
     return row_.ended_well()
-               ? has(field("errors"))
+               ? has(field("errors")) || row_[record_number("agreement_time")].has_value()
                : has(field("failure")) && has(field("failure/time")) && has(field("failure/message"));
   }
 

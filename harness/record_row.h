@@ -84,6 +84,7 @@ inline constexpr auto number_paths = std::to_array<std::string_view>({
     "errors/lambda/end_relative",
     "errors/lambda/end_absolute",
     "errors/lambda/max_absolute",
+    "agreement_time",
     "drift/energy",
     "drift/angular_momentum",
     "drift/position_constraint",

@@ -82,6 +82,8 @@ struct RunResult {
   // Of a run that ended well.
   std::optional<ErrorNorms> q, v, lambda;
   std::optional<Drift> drift;
+  // Of a chaotic scene, in place of the errors: the time up to which the run and the reference agree, s.
+  std::optional<double> agreement_time;
   RunCost cost;
   std::vector<double> end_state;  // q, v, lambda where the run ended, rounded to double
 };

@@ -72,11 +72,9 @@ JointAngle<double> angle_of(const JointDescription& joint) {
 }
 
 void read_uniform_gravity(const EffectSource& source) {
-  const auto acceleration = decimal_vector<Extended>(read_vector(source["acceleration"]));
-  for (const int body : read_bodies_or_all(source)) {
-    const auto mass = decimal<Extended>(source.body(body).mass);
-    source.add(body, -1, UniformGravity<double>{rounded(acceleration * mass)});
-  }
+  const Eigen::Vector3d acceleration = read_vector(source["acceleration"]);
+  for (const int body : read_bodies_or_all(source))
+    source.add(body, -1, UniformGravity<double>{source.body(body).mass, acceleration});
 }
 
 void read_point_gravity(const EffectSource& source) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "groups/counted.h"
+#include "harness/instances/run_time_scenes.h"
 #include "harness/run_method.h"
 #include "harness/scene_visit.h"
 
@@ -48,9 +49,7 @@ std::vector<Variant> variants_of(const AssembledScene& scene) {
 
 double flops_per_step(const AssembledScene& scene, const SimulationPlan& plan) {
   using Run = RunTimeSystem<Counted>;
-  const SceneSystem<Counted> system(make_scene_model<Counted>(scene.scene, scene.implied));
-  const Run run(std::make_shared<ErasedBlockSystem<SceneSystem<Counted>>>(system, system));
-  const auto stepper = any_stepper(plan.method, run);
+  const auto stepper = any_stepper(plan.method, run_time_scene<Counted>(scene.scene, scene.implied));
   std::vector<SolutionPoint<Run>> points(std::size_t(stepper->starting_points()));
   if (stepper->start_itself(Counted(plan.step_size), points).outcome != Outcome::ok) return 0.0;
   const std::uint64_t steps = plan.steps + 1 - std::uint64_t(stepper->steps());

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <utility>
 
+#include "harness/instances/run_time_scenes.h"
 #include "harness/references/scene_reference.h"
 #include "harness/run_method.h"
 #include "harness/scene_assembly.h"
@@ -26,7 +27,9 @@ class SceneMonitor {
   using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
   SceneMonitor(const AssembledScene& scene, const SceneReference& reference, std::uint64_t steps)
-      : system_(make_scene_model<T>(scene.scene, scene.implied)),
+      : system_(run_time_scene<T>(scene.scene, scene.implied)),
+        model_(make_scene_model<T>(scene.scene, scene.implied)),
+        chaotic_(scene.scene.chaotic),
         reference_(reference),
         steps_(steps),
         stride_(std::max<std::uint64_t>(1, steps / 1000)) {
@@ -41,8 +44,13 @@ class SceneMonitor {
     const SceneReference::Point exact = reference_.at(t);
     const Wide wide_q = q.template cast<Extended>(), wide_v = v.template cast<Extended>();
     const Wide wide_lambda = lambda.template cast<Extended>();
-    take(q_, reference_.scene().group().separation(wide_q, exact.q).template lpNorm<Eigen::Infinity>());
+    take(q_, reference_.group().separation(wide_q, exact.q).template lpNorm<Eigen::Infinity>());
     take(v_, detail::max_norm(Wide(wide_v - exact.v)));
+    // Points are seen in their order.
+    if (agrees_ && q_.end_absolute < SceneReference::agreement && to_double(t) <= reference_.agreement_time())
+      agreement_time_ = to_double(t);
+    else
+      agrees_ = false;
     if (lambda.size() > 0) take(lambda_, detail::max_norm(Wide(wide_lambda - exact.lambda)));
     if (n == steps_) {
       q_.end_relative = detail::relative_distance(represented(wide_q), represented(exact.q));
@@ -53,10 +61,14 @@ class SceneMonitor {
   }
 
   void report(RunResult& result) const {
+    result.drift = drift_;
+    if (chaotic_) {
+      result.agreement_time = agreement_time_;
+      return;
+    }
     result.q = q_;
     result.v = v_;
     if (system_.multipliers() > 0) result.lambda = lambda_;
-    result.drift = drift_;
   }
 
  private:
@@ -66,7 +78,7 @@ class SceneMonitor {
   }
   // x and R of all bodies, one below the other.
   SceneReference::System::Vector represented(const SceneReference::System::Vector& q) const {
-    const auto& bodies = reference_.scene().model().bodies;
+    const auto& bodies = reference_.model().bodies;
     SceneReference::System::Vector all(Eigen::Index(12 * bodies.size()));
     Eigen::Index row = 0;
     for (const Body<Extended>& body : bodies) {
@@ -87,7 +99,7 @@ class SceneMonitor {
     drift_.energy = std::max(drift_.energy, std::abs(to_double(system_.energy(q, v)) - energy_));
     drift_.angular_momentum = std::max(
         drift_.angular_momentum, std::abs(to_double(system_.angular_momentum(q, v)) - angular_momentum_));
-    drift_.group = std::max(drift_.group, to_double(system_.group().defect(q)));
+    drift_.group = std::max(drift_.group, to_double(SceneGroup<T>(model_->bodies).defect(q)));
     if (system_.multipliers() == 0) return;
     drift_.position_constraint =
         std::max(drift_.position_constraint.value_or(0.0), detail::max_norm(system_.constraint(time, q)));
@@ -95,7 +107,10 @@ class SceneMonitor {
                                           detail::max_norm(system_.constraint_rate(time, q, v)));
   }
 
-  SceneSystem<T> system_;
+  RunTimeSystem<T> system_;
+  std::shared_ptr<const SceneModel<T>> model_;
+  bool chaotic_, agrees_ = true;
+  double agreement_time_ = 0.0;
   const SceneReference& reference_;
   std::uint64_t steps_, stride_;
   double energy_ = 0.0, angular_momentum_ = 0.0;
@@ -106,10 +121,7 @@ class SceneMonitor {
 class PreparedScene final : public PreparedProblem {
   template <class T>
   RunTimeSystem<T> run_time_system() const {
-    using L = LinearScalar<T>;
-    return RunTimeSystem<T>(std::make_shared<ErasedBlockSystem<SceneSystem<T>>>(
-        SceneSystem<T>(make_scene_model<T>(scene_.scene, scene_.implied)),
-        SceneSystem<L>(make_scene_model<L>(scene_.scene, scene_.implied))));
+    return run_time_scene<T>(scene_.scene, scene_.implied);
   }
   // The reference as a function of time, in the vectors of the system's twin in extended precision.
   template <class S>

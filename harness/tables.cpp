@@ -90,4 +90,45 @@ Table outcomes_table(const std::vector<RecordRow>& records) {
   return table;
 }
 
+Table invariants_table(const std::vector<RecordRow>& records) {
+  const auto number = [](const char* header, const char* unit, RecordNumber of) {
+    return std::pair(Column{.header = header,
+                            .unit = unit,
+                            .kind = ColumnKind::number,
+                            .alignment = Alignment::right,
+                            .digits = 2,
+                            .notation = Notation::scientific},
+                     of);
+  };
+  std::vector<std::pair<Column, RecordNumber>> columns{
+      number("agrees to t", "s", record_number("agreement_time")),
+      number("energy", "J", record_number("drift/energy")),
+      number("angular momentum", "kg m^2/s", record_number("drift/angular_momentum")),
+      number("position constraint", "m", record_number("drift/position_constraint")),
+      number("velocity constraint", "m/s", record_number("drift/velocity_constraint")),
+      number("group", "", record_number("drift/group"))};
+  columns.front().first.notation = Notation::automatic;
+  columns.front().first.digits = 4;
+  std::erase_if(columns, [&](const auto& column) {
+    return std::none_of(records.begin(), records.end(),
+                        [&](const RecordRow& record) { return record[column.second].has_value(); });
+  });
+  std::vector<Column> headers{
+      {.header = "curve"},
+      {.header = "h", .unit = "s", .kind = ColumnKind::number, .alignment = Alignment::right}};
+  for (const auto& column : columns) headers.push_back(column.first);
+  Table table("Largest deviations from what the exact solution keeps", headers);
+  for (const Curve& curve : curves(records))
+    for (const RecordRow* record : curve.records) {
+      if (!record->ended_well()) continue;
+      Row row{curve.label, record->step_size()};
+      for (const auto& column : columns) {
+        Cell& cell = row.emplace_back();
+        if (const auto value = (*record)[column.second]) cell = *value;
+      }
+      table.add_row(std::move(row));
+    }
+  return table;
+}
+
 }  // namespace liebench

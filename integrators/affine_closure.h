@@ -46,13 +46,18 @@ struct AffineClosure {
   Velocity<S> scaled_acceleration;
 
   const Velocity<S>& base() const { return base_increment; }
-  Velocity<S> increment(const Velocity<S>& d) const { return base_increment + d; }
+  // A sum that holds references to both.
+  auto increment(const Velocity<S>& d) const { return base_increment + d; }
   ClosureValues<S> at(const Velocity<S>& d) const {
     ClosureValues<S> values;
+    put(d, values);
+    return values;
+  }
+  // The same into vectors that are there.
+  void put(const Velocity<S>& d, ClosureValues<S>& values) const {
     values.velocity_change = velocity_slope * d + velocity_change;
     values.velocity = velocity + values.velocity_change;
     values.scaled_acceleration = acceleration_slope * d + scaled_acceleration;
-    return values;
   }
   ClosureDerivatives<LinearScalar<T>> linearization(const Velocity<S>&) const {
     return {to_linear(velocity_slope), to_linear(acceleration_slope)};

@@ -33,6 +33,8 @@ class ErasedBlockMatrix final : public AnyStepMatrix<typename S::Scalar> {
   }
   Vector solve(const Vector& r) const override { return matrix_.solve(r); }
   T mass_scale() const override { return matrix_.mass_scale(); }
+  double factorization_cost() const override { return matrix_.factorization_cost(); }
+  double most_noise() const override { return matrix_.most_noise(); }
   std::unique_ptr<Base> clone() const override { return std::make_unique<ErasedBlockMatrix>(*this); }
 
  private:

@@ -45,6 +45,8 @@ class ErasedStepMatrix final : public AnyStepMatrix<typename S::Scalar> {
   }
   Vector solve(const Vector& r) const override { return matrix_.solve(r); }
   T mass_scale() const override { return matrix_.mass_scale(); }
+  double factorization_cost() const override { return matrix_.factorization_cost(); }
+  double most_noise() const override { return matrix_.most_noise(); }
   std::unique_ptr<Base> clone() const override { return std::make_unique<ErasedStepMatrix>(*this); }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "groups/flattened.h"
 #include "problems/system.h"
 
 namespace liebench {
@@ -9,10 +10,7 @@ namespace liebench {
 // Whether the kernel and the steps inline all that they call: in double and of fixed size, where small matrices in registers pay.
 // Not under AddressSanitizer, whose checks would make one function of it that takes minutes to compile.
 template <MechanicalSystem S>
-#ifdef __SANITIZE_ADDRESS__
-inline constexpr bool inlines_all = false;
-#else
-inline constexpr bool inlines_all = DenseSystem<S>&& std::is_same_v<typename S::Scalar, double>;
-#endif
+inline constexpr bool inlines_all =
+    DenseSystem<S>&& std::is_same_v<typename S::Scalar, double> && !detail::sanitized;
 
 }  // namespace liebench

@@ -22,7 +22,8 @@
 // theta = s_i / s_{i-1} the observed contraction. The iteration ends
 //   - converged, when s_i or the predicted next one, theta s_i, is below 1/20;
 //   - converged at the round-off floor, when corrections no longer shrink by a factor of 2 and s_i is below 32, or,
-//     with a matrix formed in this step, below 1e5, the floor that the condition of the matrix allows;
+//     with a matrix formed in this step, below 1e5, the floor that the condition of the matrix allows; the multipliers of nearly
+//     dependent constraints more, see at_floor();
 //   - newton_diverged, when above that floor, with a matrix formed in this step, a correction grows after one that did not
 //     shrink by a factor of 2; after 60 iterations; or when an increment turns by more than 1e8 rad.
 // The round-off unit of d is eps times |d| + |Dq| / 100, and eps |q| / h in addition where a constraint is present:
@@ -89,7 +90,7 @@ class NewtonKernel {
       Equation::evaluate(system_, h, q_n, closure, z, point);
       Equation::residual(system_, t, h, point, z, r);
       audit_.iteration();
-      const Correction d = matrix_.solve(linear(r));
+      const Correction d = matrix_.solve(in_linear_scalar(r));
       audit_.solve();
       const Unknowns before = z;
       z -= d.template cast<T>();
@@ -107,7 +108,8 @@ class NewtonKernel {
         break;
       }
       if (iteration > 1 && rate > slowest_rate) {
-        if (size <= noise || (fresh && size <= floor)) {
+        if (size <= noise_ || (fresh && at_floor(size, d, scale + largest_d))) {
+          if (fresh) noise_ = std::clamp(noise_growth * to_double(size), noise, matrix_.most_noise());
           finish(iteration);
           break;
         }
@@ -139,19 +141,25 @@ class NewtonKernel {
   // seen anew before it can mislead. That of the step it was made in says nothing of the next: the matrix was that of this
   // step, and is one step old then.
   static constexpr double safety = 2.0;
-  // In units of round-off: the tolerance; what a stalled iteration is allowed where the matrix may be old;
-  // and where it is fresh, because residual round-off reaches the unknowns through the inverse of the matrix
-  // (condition 3.6e3 for the top).
+  // In units of round-off: the tolerance; what a stalled iteration is allowed where the matrix may be old, at least; and where
+  // it is fresh, because residual round-off reaches the unknowns through the inverse of the matrix (condition 3.6e3 for the
+  // top). Where a fresh one stalls, an old one will, too, and may where a matrix is dear (most_noise()): a chain of a thousand
+  // bodies stalls at a hundred units, and would ask for a new one in every step.
   static constexpr double unit = 0.05;
   static constexpr double noise = 32.0;
   static constexpr double floor = 1e5;
-  // Cost of Jacobian and factorization in units of one iteration (residual and back-substitution), measured.
-  static constexpr double factorization_cost = 2.0;
+  static constexpr double noise_growth = 4.0;
 
   using StepMatrix = typename StepMatrixOf<S, form>::type;
   using Correction = Eigen::Matrix<Linear, n, 1, 0, Equation::most, 1>;
 
-  static Correction linear(const Unknowns& r) { return r.template cast<Linear>(); }
+  // r itself where T is the scalar of the linear algebra.
+  static decltype(auto) in_linear_scalar(const Unknowns& r) {
+    if constexpr (std::is_same_v<T, Linear>)
+      return (r);
+    else
+      return Correction(r.template cast<Linear>());
+  }
 
   // What round-off of d is relative to, apart from d itself.
   template <class Closure>
@@ -162,10 +170,19 @@ class NewtonKernel {
     return scale;
   }
 
+  // Where constraints depend on each other but for an angle 1 / c (a four-bar that is nearly flat), the position is known to c
+  // units along the direction that they hardly hold, and the multipliers, which answer by M d / h^2 along it, to c^2. One
+  // correction tells c to a factor of `noise`.
+  bool at_floor(const Linear& size, const Correction& d, const Linear& scale) const {
+    if (size <= floor) return true;
+    const Linear c = relative(Equation::change(d, system_).template lpNorm<Eigen::Infinity>(), scale);
+    return c <= floor && size <= noise * noise * c * c;
+  }
+
   // Corrections in units of round-off of the unknowns; and the largest |d_i| of z.
   [[gnu::always_inline]] Linear weighted_norm(const Correction& d, const Unknowns& z, Linear scale,
                                               Linear& largest_d) const {
-    const Correction z_linear = linear(z);
+    decltype(auto) z_linear = in_linear_scalar(z);
     largest_d = Equation::change(z_linear, system_).template lpNorm<Eigen::Infinity>();
     scale += largest_d;
     Linear largest = Equation::change(d, system_).template lpNorm<Eigen::Infinity>();
@@ -197,7 +214,7 @@ class NewtonKernel {
     const Outcome formed = matrix_.factorize(system_, t, h, q_n, closure, point, z);
     factorized_ = formed == Outcome::ok;
     audit_.factorization(cause);
-    spent_ = factorization_cost;
+    spent_ = matrix_.factorization_cost();
     steps_ = 0;
     last_ = 0;
     rate_ = 1.0;
@@ -212,7 +229,7 @@ class NewtonKernel {
 
   StepResult failure(Outcome outcome, const Unknowns& r) {
     factorized_ = false;
-    return {outcome, to_double(linear(r).template lpNorm<Eigen::Infinity>())};
+    return {outcome, to_double(in_linear_scalar(r).template lpNorm<Eigen::Infinity>())};
   }
 
   // A factorization is worth keeping while one more step with it costs less than the steps since it was made
@@ -222,7 +239,8 @@ class NewtonKernel {
   S system_;
   StepMatrix matrix_;
   bool factorized_ = false;
-  Linear rate_ = 1.0;  // contraction seen with this factorization
+  Linear rate_ = 1.0;     // contraction seen with this factorization
+  double noise_ = noise;  // what a stalled iteration is allowed with an old matrix
   double spent_ = 0.0;
   int steps_ = 0;  // steps since the factorization
   int last_ = 0;   // iterations of the last one

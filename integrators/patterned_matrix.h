@@ -4,11 +4,13 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <numeric>
+#include <type_traits>
 #include <vector>
 
 #include "groups/counted.h"
@@ -34,6 +36,7 @@ class PatternedMatrix {
         dense_(other.dense_),
         matrix_(other.matrix_),
         rows_(other.rows_),
+        order_(other.order_),
         inverse_pivots_(other.inverse_pivots_),
         entries_(other.entries_),
         slots_(other.slots_),
@@ -187,6 +190,8 @@ class PatternedMatrix {
       using std::abs;
       const Eigen::Index n = size_;
       rows_.resize(std::size_t(n));
+      order_.resize(std::size_t(n));
+      std::iota(order_.begin(), order_.end(), Eigen::Index{0});
       inverse_pivots_.resize(std::size_t(n));
       T* const A = matrix_.data();
       for (Eigen::Index j = 0; j < n; ++j) {
@@ -196,6 +201,7 @@ class PatternedMatrix {
           if (abs(pivots[pivot]) < abs(pivots[i])) pivot = i;
         if (!(T(0.0) < abs(pivots[pivot])) || !std::isfinite(to_double(pivots[pivot]))) return false;
         rows_[std::size_t(j)] = pivot;
+        std::swap(order_[std::size_t(j)], order_[std::size_t(pivot)]);
         if (pivot != j)
           for (Eigen::Index c = 0; c < n; ++c) std::swap(A[c * n + j], A[c * n + pivot]);
         inverse_pivots_[std::size_t(j)] = T(1.0) / pivots[j];
@@ -210,23 +216,44 @@ class PatternedMatrix {
       return true;
     });
   }
+  // Of the sizes that small scenes have (a body more has 6 unknowns more, a joint 3 or a few), with n known to the compiler.
   template <class Vector>
   void solve_dense(Vector& b) const {
-    return inlined<T>([&] {
-      const Eigen::Index n = size_;
-      const T* const A = matrix_.data();
-      T* const x = b.data();
-      for (Eigen::Index j = 0; j < n; ++j) std::swap(x[j], x[rows_[std::size_t(j)]]);
-      for (Eigen::Index j = 0; j < n; ++j) {
-        const T factor = x[j];
-        for (Eigen::Index i = j + 1; i < n; ++i) x[i] -= A[j * n + i] * factor;
-      }
-      for (Eigen::Index j = n; j-- > 0;) {
-        const T factor = x[j] * inverse_pivots_[std::size_t(j)];
-        x[j] = factor;
-        for (Eigen::Index i = 0; i < j; ++i) x[i] -= A[j * n + i] * factor;
-      }
-    });
+    switch (size_) {
+      case 6:
+        return solve_sized<6>(b);
+      case 9:
+        return solve_sized<9>(b);
+      case 12:
+        return solve_sized<12>(b);
+      case 18:
+        return solve_sized<18>(b);
+      default:
+        for (Eigen::Index j = 0; j < size_; ++j) std::swap(b(j), b(rows_[std::size_t(j)]));
+        return substitute(size_, matrix_.data(), inverse_pivots_.data(), b.data());
+    }
+  }
+  template <int n, class Vector>
+  void solve_sized(Vector& b) const {
+    std::array<T, std::size_t(n)> x;  // in registers, as far as there are some
+    for (std::size_t j = 0; j < std::size_t(n); ++j) x[j] = b(order_[j]);
+    substitute(std::integral_constant<int, n>(), matrix_.data(), inverse_pivots_.data(), x.data());
+    std::copy_n(x.begin(), n, b.data());
+  }
+  template <class Size>
+  [[gnu::always_inline]] static void substitute(Size size, const T* A, const T* inverse_pivots, T* x) {
+    const int n = int(size);
+#pragma GCC unroll 18
+    for (int j = 0; j < n; ++j) {
+#pragma GCC unroll 18
+      for (int i = j + 1; i < n; ++i) x[i] -= A[j * n + i] * x[j];
+    }
+#pragma GCC unroll 18
+    for (int j = n - 1; j >= 0; --j) {
+      x[j] *= inverse_pivots[j];
+#pragma GCC unroll 18
+      for (int i = 0; i < j; ++i) x[i] -= A[j * n + i] * x[j];
+    }
   }
 
   Eigen::Index size_;
@@ -235,6 +262,7 @@ class PatternedMatrix {
   // Dense: the matrix, then its factors, and the row that each step exchanged.
   Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> matrix_;
   std::vector<Eigen::Index> rows_;
+  std::vector<Eigen::Index> order_;  // the row of A that has become row j
   std::vector<T> inverse_pivots_;
   // Sparse, by columns.
   std::vector<Entry> entries_;

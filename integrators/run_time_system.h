@@ -35,6 +35,8 @@ class AnyStepMatrix {
   virtual Outcome factorize(const Point& point, const Derivatives& derivatives) = 0;
   virtual Vector solve(const Vector& r) const = 0;
   virtual T mass_scale() const = 0;
+  virtual double factorization_cost() const = 0;
+  virtual double most_noise() const = 0;
   virtual std::unique_ptr<AnyStepMatrix> clone() const = 0;
 };
 
@@ -202,6 +204,8 @@ class RunTimeSystem<T>::StepMatrix {
   }
   Correction solve(const Correction& r) const { return matrix_->solve(r); }
   Linear mass_scale() const { return matrix_->mass_scale(); }
+  double factorization_cost() const { return matrix_->factorization_cost(); }
+  double most_noise() const { return matrix_->most_noise(); }
 
  private:
   std::unique_ptr<AnyStepMatrix<Linear>> matrix_;

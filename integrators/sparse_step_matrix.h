@@ -68,9 +68,13 @@ class SparseStepMatrix {
     const bool own_change = stabilized && l_ > 0;
     const Eigen::Index change = own_change ? m_ + 2 * l_ : 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(derivatives.scaled_acceleration)>, T>)
+        if (bodies[i].plain()) {
+          add_plain_mass(bodies[i], change, derivatives.scaled_acceleration);
+          continue;
+        }
       const auto inertial = times(bodies[i].mass_matrix(), derivatives.scaled_acceleration, int(i));
-      const T largest = inertial.template lpNorm<Eigen::Infinity>();
-      if (mass_scale_ < largest) mass_scale_ = largest;
+      take_mass(inertial.template lpNorm<Eigen::Infinity>());
       add(bodies[i].v, change + bodies[i].v, inertial);
     }
     Sink<Derivatives> sink{*this, bodies, tangents, derivatives, h, change};
@@ -98,9 +102,13 @@ class SparseStepMatrix {
     matrix_.solve(extended_);
     return extended_.head(r.size());
   }
+  // See DenseStepMatrix; of one to a thousand bodies.
+  static constexpr double factorization_cost() { return 2.5; }
+  static constexpr double most_noise() { return 1e4; }
   const T& mass_scale() const { return mass_scale_; }
 
  private:
+  using Matrix3 = Eigen::Matrix<T, 3, 3>;
   using Bodies = std::remove_cvref_t<decltype(std::declval<S>().model().bodies)>;
 
   template <class Block>
@@ -116,6 +124,19 @@ class SparseStepMatrix {
     for (Eigen::Index j = 0; j < block.cols(); ++j)
       for (Eigen::Index i = 0; i < block.rows(); ++i) matrix_.add(row + i, column + j, block(i, j));
   }
+  void take_mass(const T& largest) {
+    if (mass_scale_ < largest) mass_scale_ = largest;
+  }
+  // diag(m I, J) times a number: no zeros.
+  template <class Body>
+  void add_plain_mass(const Body& body, Eigen::Index change, const T& factor) {
+    const T mass = factor * body.mass;
+    for (Eigen::Index i = 0; i < 3; ++i) matrix_.add(body.v + i, change + body.v + i, mass);
+    const Matrix3 inertia = factor * body.inertia;
+    add(body.v + 3, change + body.v + 3, inertia);
+    take_mass(mass);
+    take_mass(inertia.template lpNorm<Eigen::Infinity>());
+  }
 
   template <class Derivatives>
   struct Sink {
@@ -127,10 +148,34 @@ class SparseStepMatrix {
     const T& h;
     Eigen::Index change;  // the first column of c
 
+    // A T for the columns of the body j; of a plain one T = diag(I, T_rotation).
+    template <class Block>
+    Block times_tangent(const Block& A, int j) const {
+      const auto& tangent = tangents.blocks()[std::size_t(j)];
+      if (!bodies[std::size_t(j)].plain()) return A * tangent;
+      Block product = A;
+      product.template rightCols<3>() =
+          A.template rightCols<3>().lazyProduct(tangent.template bottomRightCorner<3, 3>());
+      return product;
+    }
     template <class Block>
     void stiffness(int i, int j, const Block& K) {
-      to.add(bodies[std::size_t(i)].v, bodies[std::size_t(j)].v,
-             Block((h * h) * (K * tangents.blocks()[std::size_t(j)])));
+      to.add(bodies[std::size_t(i)].v, bodies[std::size_t(j)].v, Block((h * h) * times_tangent(K, j)));
+    }
+    void turning_stiffness(int i, const Matrix3& K) {
+      const Eigen::Index v = bodies[std::size_t(i)].v + 3;
+      const Matrix3 tangent = tangents.blocks()[std::size_t(i)].template bottomRightCorner<3, 3>();
+      to.add(v, v, Matrix3((h * h) * (K * tangent)));
+    }
+    void turning_damping(int i, const Matrix3& C) {
+      const Eigen::Index v = bodies[std::size_t(i)].v;
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(derivatives.velocity)>, T>) {
+        to.add(v + 3, change + v + 3, Matrix3((h * C) * derivatives.velocity));
+      } else {
+        const Eigen::Matrix<T, 3, 6> rows =
+            derivatives.velocity.blocks()[std::size_t(i)].template bottomRows<3>();
+        to.add(v + 3, change + v, Eigen::Matrix<T, 3, 6>((h * C) * rows));
+      }
     }
     template <class Block>
     void damping(int i, int j, const Block& C) {
@@ -141,13 +186,12 @@ class SparseStepMatrix {
     void gradient(Eigen::Index row, int j, const Block& B) {
       const Eigen::Index v = bodies[std::size_t(j)].v, m = to.m_;
       to.add(v, m + row, Block(B.transpose()));
-      to.add(m + row, v, Block(B * tangents.blocks()[std::size_t(j)]));
+      to.add(m + row, v, times_tangent(B, j));
       if constexpr (stabilized) to.add(m + to.l_ + row, change + v, times(B, derivatives.velocity, j));
     }
     template <class Block>
     void rate_gradient(Eigen::Index row, int j, const Block& Z) {
-      to.add(to.m_ + to.l_ + row, bodies[std::size_t(j)].v,
-             Block(h * (Z * tangents.blocks()[std::size_t(j)])));
+      to.add(to.m_ + to.l_ + row, bodies[std::size_t(j)].v, Block(h * times_tangent(Z, j)));
     }
   };
   struct GradientSink {

@@ -80,7 +80,10 @@ class StepEquation {
     }
     p.motion = group_of(system).exp(p.step);
     p.q = group_of(system).compose(q_n, p.motion);
-    p.values = closure.at(p.change);
+    if constexpr (SizedLieGroup<typename S::Group> && requires { closure.put(p.change, p.values); })
+      closure.put(p.change, p.values);
+    else
+      p.values = closure.at(p.change);
   }
 
   // (h r, Phi / h, B v)

@@ -56,6 +56,11 @@ class DenseStepMatrix {
 
   Correction solve(const Correction& r) const { return lu_.solve(r); }
 
+  // Of Jacobian and factorization, in units of one iteration (residual and back-substitution), measured.
+  static constexpr double factorization_cost() { return 2.0; }
+  // Up to which size a stalled iteration with an old matrix may learn to end, in units of round-off: a fresh one costs little, and
+  // keeps the noise of lambda lower.
+  static constexpr double most_noise() { return 32.0; }
   // The largest entry of the block of the equations of motion.
   const Linear& mass_scale() const { return mass_scale_; }
 

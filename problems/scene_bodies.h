@@ -269,15 +269,21 @@ struct Body {
     if (has_body_velocity(kind)) g.template segment<3>(v) += omega.cross(all.template segment<3>(v) * mass);
     if (gyroscopic) g.template segment<3>(v + 3) += omega.cross(inertia * omega);
   }
+  // D_Omega of Omega x J Omega.
+  template <class Vectors>
+  Matrix gyroscopic_damping(const Vectors& all) const {
+    const Vector omega = all.template segment<3>(has_fixed_point(kind) ? v : v + 3);
+    const Matrix& J = has_fixed_point(kind) ? inertia_of_motion : inertia;
+    return skew(omega) * J - skew(Vector(J * omega));
+  }
   // Their derivative with respect to v.
   template <class Vectors>
   Block inertial_damping(const Vectors& all) const {
     Block C = Block::Constant(velocities(), velocities(), T(0.0));
     if (!rotates()) return C;
-    const Vector omega = all.template segment<3>(has_fixed_point(kind) ? v : v + 3);
-    const Matrix& J = has_fixed_point(kind) ? inertia_of_motion : inertia;
-    if (gyroscopic) C.template bottomRightCorner<3, 3>() = skew(omega) * J - skew(Vector(J * omega));
+    if (gyroscopic) C.template bottomRightCorner<3, 3>() = gyroscopic_damping(all);
     if (has_body_velocity(kind)) {
+      const Vector omega = all.template segment<3>(v + 3);
       C.template topLeftCorner<3, 3>() = skew(Vector(omega * mass));
       C.template topRightCorner<3, 3>() = -skew(Vector(all.template segment<3>(v) * mass));
     }

@@ -1,12 +1,44 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <string>
 
+#include "problems/heavy_top_parameters.h"
 #include "problems/scene_description.h"
 
-// Scenes of any size. Those of a fixed one are data: problems/scenes.
+// Scenes of any size, and the heavy top of any parameters. The others are data: problems/scenes.
 
 namespace liebench {
+
+// The heavy top as a body of the kind, on a spherical joint or with a fixed point; the orientation of the parameters is not looked at: it is the identity.
+inline SceneDescription heavy_top_scene(BodyKind kind, const HeavyTopParameters& p = {}) {
+  SceneDescription scene;
+  scene.name = "heavy_top";
+  BodyDescription top;
+  top.name = "top";
+  top.kind = kind;
+  top.mass = p.mass;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) top.inertia(Eigen::Index(i), Eigen::Index(j)) = p.inertia[i][j];
+  const auto vector = [](const std::array<double, 3>& a) { return Eigen::Vector3d(a[0], a[1], a[2]); };
+  const Eigen::Vector3d X = vector(p.center_of_mass), omega = vector(p.angular_velocity);
+  top.position = X;
+  top.angular_velocity = omega;
+  top.velocity = omega.cross(X);
+  scene.bodies.push_back(top);
+  if (!has_fixed_point(kind)) {
+    JointDescription tip;
+    tip.name = "tip";
+    tip.b = 0;
+    tip.point_b = -X;
+    scene.joints.push_back(tip);
+  }
+  std::get<std::vector<Placed<UniformGravity<double>>>>(scene.effects)
+      .push_back({UniformGravity<double>{p.mass, vector(p.gravity)}, 0, -1});
+  return scene;
+}
 
 // n rods in a row along x from the origin, where the first hangs on the ground: each of length 1 m, mass 1 kg and a square cross
 // section 0.1 m wide, joined by spherical joints, at rest; gravity of 9.81 m/s^2 along -z. n = 3 is problems/scenes/chain_3.json.
@@ -29,7 +61,7 @@ inline SceneDescription chain(int n) {
     joint.point_b = {-0.5, 0.0, 0.0};
     scene.joints.push_back(joint);
     std::get<std::vector<Placed<UniformGravity<double>>>>(scene.effects)
-        .push_back({{Eigen::Vector3d(0.0, 0.0, -9.81)}, i - 1, -1});
+        .push_back({{1.0, {0.0, 0.0, -9.81}}, i - 1, -1});
   }
   return scene;
 }
@@ -53,7 +85,7 @@ inline SceneDescription four_bar(int n) {
     const int index = int(scene.bodies.size());
     scene.bodies.push_back(body);
     std::get<std::vector<Placed<UniformGravity<double>>>>(scene.effects)
-        .push_back({{Eigen::Vector3d(0.0, -9.81, 0.0)}, index, -1});
+        .push_back({{body.mass, {0.0, -9.81, 0.0}}, index, -1});
     return index;
   };
   const auto add_link = [&](int i) {

@@ -14,7 +14,7 @@ namespace liebench {
 
 // The product of the groups of all bodies of a scene; elements by their stacked representations. Valid as long as the bodies
 // are. Counts what AuditedGroup counts, once for each body: a scene is audited body by body.
-template <class T, int most_bodies>
+template <class T, int most_bodies = Eigen::Dynamic>
 class SceneGroup {
  public:
   using Scalar = T;

@@ -92,18 +92,26 @@ class SceneSystem {
   Tangent force(const T& t, const Element& q, const Tangent& v) const {
     return inlined<T>([&]() -> Tangent {
       Tangent g = Tangent::Constant(v.size(), T(0.0));
-      Tangent applied = g;
       each_effect([&](const auto& placed) {
         const auto& effect = placed.effect;
+        using Effect = std::remove_cvref_t<decltype(effect)>;
+        if constexpr (!Effect::two_bodies && !Effect::uses_pose && !Effect::uses_velocity)
+          if (plain(placed.a)) {
+            // Neither the effect nor what its force is for the velocities depends on the state.
+            static const State anywhere = State::ground();
+            Wrench<T> on_a = Wrench<T>::zero(), none = on_a;
+            effect.template add_wrenches<T>(t, anywhere, anywhere, on_a, none);
+            return add(placed.a, anywhere, on_a, g);
+          }
         Pair<T> pair = states(placed.a, placed.b, q, &v);
         effect.template add_wrenches<T>(t, pair.a, pair.b, pair.on_a, pair.on_b);
-        add(placed.a, pair.a, pair.on_a, applied);
-        if constexpr (std::remove_cvref_t<decltype(effect)>::two_bodies)
-          add(placed.b, pair.b, pair.on_b, applied);
+        add(placed.a, pair.a, pair.on_a, g);
+        if constexpr (Effect::two_bodies) add(placed.b, pair.b, pair.on_b, g);
       });
+      g = -g;
       for (const Body<T>& body : model_->bodies)
         if (body.has_inertial_forces()) body.add_inertial(v, g);
-      return g - applied;
+      return g;
     });
   }
   T energy(const Element& q, const Tangent& v) const {
@@ -176,6 +184,7 @@ class SceneSystem {
   //
   //   sink.stiffness(i, j, K_ij)   D_{q_j} of (g + B^T lambda)_i
   //   sink.damping(i, j, C_ij)     D_{v_j} of g_i
+  //   sink.turning_stiffness(i, K), sink.turning_damping(i, C)   K_ii and C_ii of a plain body: the rotational 3 x 3 blocks, the rest zero
   //   sink.gradient(row, j, B_j)   a row of the constraint gradient
   //   sink.rate_gradient(row, j, Z_j)   the same row of D_{q_j} of (B v) at fixed v, where the sink asks for it
   //
@@ -186,7 +195,11 @@ class SceneSystem {
     each_effect([&]<class E>(const Placed<E>& placed) { effect_pieces(placed, t, q, v, sink); });
     for (std::size_t i = 0; i < model_->bodies.size(); ++i) {
       const Body<T>& body = model_->bodies[i];
-      if (body.has_inertial_forces()) sink.damping(int(i), int(i), body.inertial_damping(v));
+      if (!body.has_inertial_forces()) continue;
+      if (body.plain())
+        sink.turning_damping(int(i), body.gyroscopic_damping(v));
+      else
+        sink.damping(int(i), int(i), body.inertial_damping(v));
     }
     each_constraint(
         [&]<class C>(const PlacedConstraint<C>& c) { constraint_pieces(c, t, q, v, lambda, sink); });
@@ -352,9 +365,13 @@ class SceneSystem {
     const auto piece = [&](int i, const State& s, const Wrench<T>& w, const Eigen::Matrix<T, 3, 3>& turn,
                            const Eigen::Matrix<T, C::rows, 3>& rate, bool first) {
       if (i < 0) return;
-      Eigen::Matrix<T, 6, 6> K = Eigen::Matrix<T, 6, 6>::Constant(T(0.0));
-      K.template bottomRightCorner<3, 3>() = turn;
-      wrench_pieces(i, s, i, s, K, nullptr, w, T(1.0), sink);
+      if (plain(i)) {
+        sink.turning_stiffness(i, turn);
+      } else {
+        Eigen::Matrix<T, 6, 6> K = Eigen::Matrix<T, 6, 6>::Constant(T(0.0));
+        K.template bottomRightCorner<3, 3>() = turn;
+        wrench_pieces(i, s, i, s, K, nullptr, w, T(1.0), sink);
+      }
       if constexpr (Sink::wants_rate_gradient) {
         const Body<T>& body = model_->bodies[std::size_t(i)];
         for (int r = 0; r < C::rows; ++r) {

@@ -1,16 +1,40 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "harness/cli/commands.h"
 #include "harness/embedded.h"
 #include "harness/errors.h"
 #include "harness/methods.h"
 #include "harness/problems.h"
+#include "harness/strict_json.h"
 
 namespace liebench {
 
 namespace {
 
+// The effects of scenes are described by their schema.
+Json scene_schema() {
+  return parse_json(embedded_file("scene.schema.json"), "scene.schema.json");
+}
+std::vector<Json> effects() {
+  const Json schema = scene_schema();
+  const Json& list = schema.at("properties").at("effects").at("items").at("oneOf");
+  return {list.begin(), list.end()};
+}
+std::string effect_name(const Json& effect) {
+  return effect.at("properties").at("type").at("const");
+}
+
 void list(const std::string& what) {
+  if (what == "effects") {
+    for (const Json& effect : effects())
+      fmt::print("{:<20} {}\n", effect_name(effect),
+                 effect.at("properties").at("type").at("description").get<std::string>());
+    return;
+  }
   if (what == "problems") {
     for (const ProblemInfo& problem : problems()) fmt::print("{:<20} {}\n", problem.name, problem.summary);
     return;
@@ -63,9 +87,41 @@ void describe_problem(const ProblemInfo& problem) {
       problem.parameters.back().fallback.dump());
 }
 
+// What a part of a schema says of its values; of a reference, what that says.
+std::string schema_text(const Json& part, const Json& schema) {
+  if (part.contains("description")) return part.at("description");
+  if (part.contains("$ref"))
+    return schema_text(schema.at(Json::json_pointer(part.at("$ref").get<std::string>().substr(1))), schema);
+  if (part.contains("allOf")) return schema_text(part.at("allOf").front(), schema);
+  if (part.contains("enum")) {
+    std::vector<std::string> words;
+    for (const Json& word : part.at("enum"))
+      words.push_back(word.is_string() ? word.get<std::string>() : word.dump());
+    return quoted_list(words);
+  }
+  return part.value("type", "");
+}
+
+void describe_effect(const Json& effect) {
+  const Json schema = scene_schema();
+  const Json required = effect.value("required", Json::array());
+  fmt::print("{}: {}\n\nKeys:\n", effect_name(effect),
+             effect.at("properties").at("type").at("description").get<std::string>());
+  for (const auto& [key, part] : effect.at("properties").items()) {
+    if (key == "type") continue;
+    const bool needed = std::find(required.begin(), required.end(), key) != required.end();
+    fmt::print("  {:<24} {}{}\n", key, schema_text(part, schema), needed ? "; required" : "");
+  }
+  fmt::print(
+      "\n"
+      "In a scene, among its \"effects\":\n  {{\"type\": \"{}\", ...}}   (docs/scenes.md)\n",
+      effect_name(effect));
+}
+
 void describe(const std::string& name) {
-  std::vector<std::string> names{"record", "study"};
-  if (name == "record" || name == "study") return fmt::print("{}", embedded_file(name + ".schema.json"));
+  std::vector<std::string> names{"record", "study", "scene"};
+  if (std::find(names.begin(), names.end(), name) != names.end())
+    return fmt::print("{}", embedded_file(name + ".schema.json"));
   for (const MethodInfo& method : methods()) {
     if (method.name == name) return describe_method(method);
     names.emplace_back(method.name);
@@ -73,6 +129,10 @@ void describe(const std::string& name) {
   for (const ProblemInfo& problem : problems()) {
     if (problem.name == name) return describe_problem(problem);
     names.emplace_back(problem.name);
+  }
+  for (const Json& effect : effects()) {
+    if (effect_name(effect) == name) return describe_effect(effect);
+    names.push_back(effect_name(effect));
   }
   throw InputError("describe", fmt::format("unknown name \"{}\"; allowed: {}{}", name, quoted_list(names),
                                            suggestion(name, names)));
@@ -83,18 +143,19 @@ void describe(const std::string& name) {
 void add_list(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("list", "List what the program knows");
   auto what = std::make_shared<std::string>();
-  command->add_option("what", *what, "problems or integrators")
+  command->add_option("what", *what, "problems, integrators or effects")
       ->required()
-      ->check(CLI::IsMember({"problems", "integrators"}));
+      ->check(CLI::IsMember({"problems", "integrators", "effects"}));
   command->footer("Example:\n  liebench list integrators");
   command->callback([what] { list(*what); });
 }
 
 void add_describe(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand(
-      "describe", "Say what an integrator or a problem is and what it takes; record, study: the JSON schema");
+  CLI::App* command = app.add_subcommand("describe",
+                                         "Say what an integrator, a problem or an effect is and what it "
+                                         "takes; record, study, scene: the JSON schema");
   auto name = std::make_shared<std::string>();
-  command->add_option("name", *name, "a name from `liebench list`, or record or study")
+  command->add_option("name", *name, "a name from `liebench list`, or record, study or scene")
       ->required()
       ->type_name("NAME");
   command->footer("Example:\n  liebench describe heavy_top");

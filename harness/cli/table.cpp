@@ -30,6 +30,7 @@ struct TableOptions {
 Table table_of(const std::vector<RecordRow>& records, const TableOptions& options) {
   if (options.kind == "orders") return orders_table(records);
   if (options.kind == "outcomes") return outcomes_table(records);
+  if (options.kind == "invariants") return invariants_table(records);
   if (options.kind == "costs") {
     if (options.step_size == 0) return costs_table(records);
     Table costs = costs_table(records, options.step_size);
@@ -70,12 +71,14 @@ void add_table(CLI::App& app, int&) {
   auto options = std::make_shared<TableOptions>();
   command->add_option("files", options->files, "files of records")->required()->type_name("FILE.jsonl...");
   command
-      ->add_option("--kind", options->kind,
-                   "cost-accuracy: what a given error costs, the cheapest curve marked;\n"
-                   "costs: counts and time of a step;\n"
-                   "orders: observed orders of convergence with window and uncertainty;\n"
-                   "outcomes: how the runs ended, and where those stood that failed")
-      ->check(CLI::IsMember({"cost-accuracy", "costs", "orders", "outcomes"}))
+      ->add_option(
+          "--kind", options->kind,
+          "cost-accuracy: what a given error costs, the cheapest curve marked;\n"
+          "costs: counts and time of a step;\n"
+          "invariants: drift of energy, momentum and constraints, and up to when a chaotic scene is right;\n"
+          "orders: observed orders of convergence with window and uncertainty;\n"
+          "outcomes: how the runs ended, and where those stood that failed")
+      ->check(CLI::IsMember({"cost-accuracy", "costs", "invariants", "orders", "outcomes"}))
       ->capture_default_str();
   command->add_option("--target", options->targets, "cost-accuracy: the errors to reach")
       ->delimiter(',')

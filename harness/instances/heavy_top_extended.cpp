@@ -13,5 +13,8 @@ template RunResult run_heavy_top<HeavyTopUDQ, Extended>(const RunRequest&, const
 
 template StepperMaker<ExtendedSO3> any_stepper;
 template StepperMaker<ExtendedR3xSO3> any_stepper;
+template StepperMaker<ExtendedR3xS3> any_stepper;
+template StepperMaker<ExtendedSE3> any_stepper;
+template StepperMaker<ExtendedUDQ> any_stepper;
 
 }  // namespace liebench

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "harness/instances/run_time_steppers.h"
-#include "integrators/erased_block_system.h"
+#include "integrators/sparse_step_matrix.h"
 #include "problems/scene_model.h"
 
 // The steppers of scenes: in double small ones, whose vectors need no heap, and those of any size; others by the run-time system.

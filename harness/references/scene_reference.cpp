@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "integrators/erased_block_system.h"
+#include "harness/instances/run_time_scenes.h"
 #include "integrators/self_start.h"
 #include "problems/scene_model.h"
 
@@ -15,19 +15,13 @@ namespace liebench {
 namespace {
 
 constexpr double wanted_error = 1e-17;
-constexpr double agreement = 1e-2;
 constexpr std::size_t window = 10;
-
-RunTimeSystem<Extended> run_time(const AssembledScene& scene, const SceneSystem<Extended>& system) {
-  const SceneSystem<double> linear(make_scene_model<double>(scene.scene, scene.implied));
-  return RunTimeSystem<Extended>(std::make_shared<ErasedBlockSystem<SceneSystem<Extended>>>(system, linear));
-}
 
 }  // namespace
 
 SceneReference::SceneReference(const AssembledScene& scene, double duration)
-    : scene_(make_scene_model<Extended>(scene.scene, scene.implied)),
-      system_(run_time(scene, scene_)),
+    : model_(make_scene_model<Extended>(scene.scene, scene.implied)),
+      system_(run_time_scene<Extended>(scene.scene, scene.implied)),
       duration_(duration) {
   const auto bodies = std::max<std::size_t>(1, scene.scene.bodies.size());
   const std::uint64_t most = std::max<std::uint64_t>(800, 40000 / bodies);
@@ -37,13 +31,18 @@ SceneReference::SceneReference(const AssembledScene& scene, double duration)
     std::vector<Node> fine = trajectory(2 * steps);
     error_estimate_ = distance(coarse.back(), fine.back());
     if (error_estimate_ < 63.0 * wanted_error || 4 * steps > most) {
-      if (!(error_estimate_ < agreement)) {
-        std::size_t i = 0;
-        while (i < coarse.size() && distance(coarse[i], fine[2 * i]) < agreement) ++i;
-        throw std::runtime_error(fmt::format(
-            "trajectories of {} and {} steps agree up to t = {:.3g} s only; choose \"t_end\" up to that",
-            steps, 2 * steps, duration * double(i) / double(steps)));
-      }
+      std::size_t agreed = 0;
+      while (agreed + 1 < coarse.size() && distance(coarse[agreed + 1], fine[2 * agreed + 2]) < agreement)
+        ++agreed;
+      agreement_time_ = duration * double(agreed) / double(steps);
+      if (agreed < steps && !scene.scene.chaotic)
+        throw std::runtime_error(
+            fmt::format("trajectories of {} and {} steps agree up to t = {:.3g} s only; choose \"t_end\" up "
+                        "to that, or say "
+                        "\"chaotic\": true in the scene, to be compared by invariants",
+                        steps, 2 * steps, agreement_time_));
+      // Beyond that time nothing is compared.
+      if (agreed < steps) error_estimate_ = distance(coarse[agreed], fine[2 * agreed]);
       // Richardson: the finer trajectory is 63 times nearer.
       error_estimate_ = std::max(error_estimate_ / 63.0, 1e-30);
       nodes_ = std::move(fine);
@@ -79,7 +78,7 @@ std::vector<SceneReference::Node> SceneReference::trajectory(std::uint64_t steps
 
 double SceneReference::distance(const Node& a, const Node& b) const {
   if (a.q.size() == 0 || b.q.size() == 0) return INFINITY;
-  const double position = scene_.group().separation(a.q, b.q).lpNorm<Eigen::Infinity>();
+  const double position = group().separation(a.q, b.q).lpNorm<Eigen::Infinity>();
   const System::Vector difference = a.v - b.v;
   const double size = 1.0 + to_double(Extended(b.v.norm()));
   const double velocity = to_double(Extended(difference.norm())) / size;

@@ -22,14 +22,19 @@ class SceneReference {
   using Point = SolutionPoint<System>;
 
   // N grows until the estimate is below 1e-17 or a step of 2 N would be the 40,000th of a body. Throws std::runtime_error where a
-  // step fails or the trajectories of N and 2 N steps do not agree to 1 %, with the time up to which they do.
+  // step fails or, of a scene that is not chaotic, the trajectories of N and 2 N steps do not agree to 1 %, with the time up to
+  // which they do.
   SceneReference(const AssembledScene& scene, double duration);
 
   // The solution at t in [0, duration].
   Point at(const Extended& t) const;
   double error_estimate() const { return error_estimate_; }
+  // Up to when the trajectories of N and 2 N steps agree to 1 %, s; of a scene that is not chaotic the whole duration.
+  double agreement_time() const { return agreement_time_; }
+  static constexpr double agreement = 1e-2;
   std::string method() const;
-  const SceneSystem<Extended>& scene() const { return scene_; }
+  const SceneModel<Extended>& model() const { return *model_; }
+  SceneGroup<Extended> group() const { return SceneGroup<Extended>(model_->bodies); }
 
  private:
   struct Node {
@@ -38,12 +43,13 @@ class SceneReference {
   std::vector<Node> trajectory(std::uint64_t steps) const;
   double distance(const Node& a, const Node& b) const;
 
-  SceneSystem<Extended> scene_;
+  std::shared_ptr<const SceneModel<Extended>> model_;
   System system_;
   double duration_;
   Extended spacing_;
   std::vector<Node> nodes_;
   double error_estimate_ = 0.0;
+  double agreement_time_ = 0.0;
 };
 
 }  // namespace liebench

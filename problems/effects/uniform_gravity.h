@@ -7,7 +7,7 @@
 
 namespace liebench {
 
-// The weight of one body, f = m gamma. An effect on one body or two is written for states of any scalar U made from its own T:
+// The weight of one body, f = m gamma, its factors as the data gives them. An effect on one body or two is written for states of any scalar U made from its own T:
 //
 //   name, two_bodies       what the scene calls it; whether it acts between two bodies, the second of which may be the ground
 //   uses_pose, uses_velocity    whether its wrenches depend on them in (x, R, x', Omega)
@@ -18,11 +18,13 @@ template <class T>
 struct UniformGravity {
   static constexpr std::string_view name = "uniform_gravity";
   static constexpr bool two_bodies = false, uses_pose = false, uses_velocity = false;
-  Eigen::Matrix<T, 3, 1> weight;  // m gamma, inertial frame, N
+  T mass;                                          // kg
+  Eigen::Matrix<T, 3, 1> gravity;                  // gamma, inertial frame, m/s^2
+  Eigen::Matrix<T, 3, 1> weight = gravity * mass;  // N
 
   template <class U>
   UniformGravity<U> cast() const {
-    return {decimal_vector<U>(weight)};
+    return {decimal<U>(mass), decimal_vector<U>(gravity)};
   }
   template <class U>
   void add_wrenches(const T&, const RigidState<U>&, const RigidState<U>&, Wrench<U>& on_a, Wrench<U>&) const {

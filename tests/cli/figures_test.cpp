@@ -54,7 +54,7 @@ TEST_F(FiguresTest, TheRecordsOfAFigureAreTablesAndPlotsAsThoseOfAnyStudy) {
 // be reduced and is not, is exit status 1. Some 110 s of one core's time; ten times that under sanitizers, which see the same
 // code in smaller runs.
 TEST_F(FiguresTest, EveryMethodFormAndFormulationHasTheOrderThatTheoryGivesIt) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef LIEBENCH_SANITIZED
   GTEST_SKIP() << "too long under sanitizers";
 #endif
   ProgramCall verification = call({"figures", "--only", "verification", "--out", "out"});

@@ -76,12 +76,15 @@ TEST_F(OutputTest, OfVersionIsOneLineWithTheCommit) {
 
 TEST_F(OutputTest, OfListIsAsExpected) {
   expect_golden("list.txt", "$ liebench list problems\n" + output({"list", "problems"}) +
-                                "$ liebench list integrators\n" + output({"list", "integrators"}));
+                                "$ liebench list integrators\n" + output({"list", "integrators"}) +
+                                "$ liebench list effects\n" + output({"list", "effects"}));
 }
 
 TEST_F(OutputTest, OfDescribeIsAsExpected) {
   expect_golden("describe.txt", "$ liebench describe bliedf2nd\n" + output({"describe", "bliedf2nd"}) +
-                                    "$ liebench describe heavy_top\n" + output({"describe", "heavy_top"}));
+                                    "$ liebench describe heavy_top\n" + output({"describe", "heavy_top"}) +
+                                    "$ liebench describe spring_damper\n" +
+                                    output({"describe", "spring_damper"}));
 }
 
 TEST_F(OutputTest, TheStudyThatDescribeShowsCanBeRun) {

@@ -176,5 +176,41 @@ TEST_F(SceneCommandsTest, AStudyOfASceneConverges) {
   }
 }
 
+// The double pendulum of Kane & Levinson: its motion is known for a second or two, and no end says anything after that.
+TEST_F(SceneCommandsTest, AChaoticSceneIsComparedByInvariantsAndByTheTimeToWhichItAgrees) {
+#ifdef LIEBENCH_SANITIZED
+  GTEST_SKIP() << "too long under sanitizers: a reference of 20,000 steps in 106 bits";
+#endif
+  Json study;
+  study["name"] = "chaos";
+  study["problems"] = Json::array({{{"scene", scene("double_pendulum")}}});
+  study["integrators"] = Json::array({{{"name", "bliedf2nd"}, {"k", 2}, {"form", "stabilized_index2"}}});
+  study["step_sizes"] = {0.01, 0.0025};
+  study["t_end"] = 4;
+  write_study(study);
+  const ProgramResult result = run({"run", "study.json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto records = records_of(result.out);
+  ASSERT_EQ(records.size(), 2u);
+  std::vector<double> agreement;
+  for (const Json& record : records) {
+    EXPECT_EQ(record.at("outcome"), "ok");
+    EXPECT_FALSE(record.contains("errors"));
+    EXPECT_LT(record.at("drift").at("position_constraint").get<double>(), 1e-12);
+    agreement.push_back(record.at("agreement_time").get<double>());
+  }
+  // Smaller steps agree for longer, but not for ever.
+  EXPECT_GT(agreement[0], 0.1);
+  EXPECT_GT(agreement[1], agreement[0]);
+  EXPECT_LT(agreement[0], 4.0);
+  folder.write("chaos.jsonl", result.out);
+  const ProgramResult table = run({"table", "chaos.jsonl", "--kind", "invariants"});
+  ASSERT_EQ(table.status, 0) << table.err;
+  EXPECT_TRUE(contains(table.out, "agrees to t")) << table.out;
+  EXPECT_TRUE(contains(table.out, "position constraint")) << table.out;
+  const ProgramResult costs = run({"table", "chaos.jsonl", "--kind", "costs"});
+  EXPECT_EQ(costs.status, 0) << costs.err;
+}
+
 }  // namespace
 }  // namespace liebench

@@ -6,19 +6,12 @@
 #include <map>
 #include <string>
 
+#include "groups/flattened.h"
 #include "harness/progress.h"
 #include "tests/support/run_program.h"
 
 namespace liebench {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool sanitized = true;
-#elif defined(__has_feature)
-constexpr bool sanitized = __has_feature(address_sanitizer);
-#else
-constexpr bool sanitized = false;
-#endif
 
 class ExecuteTest : public testing::Test {
  protected:
@@ -71,7 +64,7 @@ TEST_F(ExecuteTest, TheErrorsAgreeWithAnIndependentProgram) {
       {2, "R3xSO3", "q", 5.488e-04}, {2, "R3xSO3", "lambda", 5.278e-04}, {2, "SO3", "q", 1.073e-02}};
   Json study = small_study();
   study["integrators"] = Json::array(
-      {{{"name", "bliedf2nd"}, {"k", sanitized ? Json(4) : Json({4, 3, 2})}}});  // slow under ASan
+      {{{"name", "bliedf2nd"}, {"k", detail::sanitized ? Json(4) : Json({4, 3, 2})}}});  // slow under ASan
   study["step_sizes"] = Json::array({1e-4});
   study["t_end"] = 2.0;
   study["precision"] = "extended";
@@ -85,7 +78,7 @@ TEST_F(ExecuteTest, TheErrorsAgreeWithAnIndependentProgram) {
   for (const Printed& printed : all) {
     const auto found = errors.find({printed.k, printed.formulation});
     if (found == errors.end()) {
-      EXPECT_TRUE(sanitized && printed.k != 4) << "no run";
+      EXPECT_TRUE(detail::sanitized && printed.k != 4) << "no run";
       continue;
     }
     // 0.1 %: the last printed digit alone is 0.05 %.

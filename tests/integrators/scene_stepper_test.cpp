@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <Eigen/Core>
 #include <memory>
@@ -7,9 +8,12 @@
 #include <variant>
 #include <vector>
 
+#include "groups/flattened.h"
 #include "harness/instances/heavy_top_steppers.h"
+#include "harness/instances/run_time_scenes.h"
 #include "harness/instances/scene_steppers.h"
 #include "problems/heavy_top.h"
+#include "problems/scene_examples.h"
 #include "tests/support/sample_scenes.h"
 
 namespace liebench {
@@ -41,14 +45,6 @@ std::unique_ptr<AnyStepper<S>> after(const MethodOptions& options, const S& syst
   return stepper;
 }
 
-template <class T>
-RunTimeSystem<T> run_time_scene(const SceneDescription& scene) {
-  using S = SceneSystem<T>;
-  using L = SceneSystem<LinearScalar<T>>;
-  return RunTimeSystem<T>(std::make_shared<ErasedBlockSystem<S>>(
-      S(make_scene_model<T>(scene)), L(make_scene_model<LinearScalar<T>>(scene))));
-}
-
 // In extended precision, 40 steps of the slow top from the same points: round-off of 1e-32 grows by 1 / h^2 in the index-3 form.
 // (Their own starts differ by the error of the starting method, for off the constraint the constraint forces of both are not
 // the same; so does that of generalized-alpha from given points.)
@@ -56,8 +52,6 @@ template <template <class> class System>
 void expect_heavy_top(BodyKind kind) {
   HeavyTopParameters p;
   p.angular_velocity = {0.0, 15.0, -0.461538};
-  // The weight of a scene is formed in double: m gamma without rounding.
-  p.gravity = {0.0, 0.0, -9.8125};
   const Audited<System<Extended>> top{System<Extended>(p)};
   using Top = std::remove_cvref_t<decltype(top)>;
   const auto scene = run_time_scene<Extended>(heavy_top_scene(kind, p));
@@ -116,7 +110,7 @@ SceneDescription two_rods() {
   scene.joints = {pin, hinge};
   for (int i = 0; i < 2; ++i)
     std::get<std::vector<Placed<UniformGravity<double>>>>(scene.effects)
-        .push_back({UniformGravity<double>{{0.3, 0.0, -9.81}}, i, -1});
+        .push_back({UniformGravity<double>{1.0, {0.3, 0.0, -9.81}}, i, -1});
   return scene;
 }
 
@@ -153,6 +147,34 @@ TEST(SceneStepper, EnergyOfTheDoublePendulumIsKeptToTheOrderOfTheMethod) {
   // Order 4, or better where the leading term is small.
   EXPECT_LE(drifts[1], drifts[0] / 12.0);
   EXPECT_LE(drifts[1], 1e-6);
+}
+
+// Floating point operations of a step: those of ten bodies ten times, of a hundred a hundred times, but for iterations more.
+TEST(SceneStepper, AChainCostsInProportionToItsBodies) {
+  if (detail::sanitized) GTEST_SKIP() << "too long under sanitizers";
+  const auto flops = [](int bodies) {
+    constexpr int steps = 20;
+    const auto stepper =
+        after(BLieDF2nd::Options{.k = 3}, run_time_scene<Counted>(chain(bodies)), 1e-3, steps);
+    const Operations before = Counted::operations();
+    EXPECT_EQ(stepper->advance(steps).outcome, Outcome::ok);
+    return double((Counted::operations() - before).total());
+  };
+  EXPECT_LE(std::log10(flops(1000) / flops(10)) / 2.0, 1.1);
+}
+
+TEST(SceneStepper, AChainTakesLessThan20kBABody) {
+  if (detail::sanitized) GTEST_SKIP() << "the sanitizer's allocator does not say what is in use";
+  const auto in_use = [] {
+    const struct mallinfo2 info = mallinfo2();
+    return double(info.uordblks + info.hblkhd);
+  };
+  constexpr int bodies = 1000;
+  const SceneDescription description = chain(bodies);
+  const double before = in_use();
+  const auto stepper =
+      after(BLieDF2nd::Options{.k = 3}, Scene(make_scene_model<double>(description)), 1e-3, 2);
+  EXPECT_LE(in_use() - before, 20e3 * bodies);
 }
 
 }  // namespace

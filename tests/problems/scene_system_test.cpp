@@ -42,6 +42,8 @@ struct DensePieces {
   void damping(int i, int j, const Block& block) {
     add(C, place(i), place(j), block);
   }
+  void turning_stiffness(int i, const Eigen::Matrix3d& block) { add(K, place(i) + 3, place(i) + 3, block); }
+  void turning_damping(int i, const Eigen::Matrix3d& block) { add(C, place(i) + 3, place(i) + 3, block); }
   template <class Block>
   void gradient(Eigen::Index row, int j, const Block& block) {
     add(B, row, place(j), block);
@@ -132,7 +134,7 @@ TEST(SceneSystem, MatricesAreDerivativesForEveryKindOfBody) {
     for (const BodyKind second : {BodyKind::r3xso3, BodyKind::se3, BodyKind::so3}) {
       SceneDescription scene = two_bodies(first, second);
       std::get<std::vector<Placed<UniformGravity<double>>>>(scene.effects)
-          .push_back({UniformGravity<double>{{0.1, 0.2, -9.81}}, 0, -1});
+          .push_back({UniformGravity<double>{1.0, {0.1, 0.2, -9.81}}, 0, -1});
       std::get<std::vector<Placed<SpringDamper<double>>>>(scene.effects)
           .push_back({SpringDamper<double>{{0.1, 0.0, 0.2}, {0.0, 0.3, 0.1}, 7.0, 0.4, 0.5}, 0, 1});
       scene.joints.push_back(general_joint(JointKind::spherical, 0, 1));
