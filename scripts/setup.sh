@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that liebench needs and that are not there yet, through apt-get.
 #
-#   scripts/setup.sh [--lint]
+#   scripts/setup.sh [--tests] [--lint]
 #
-#   --lint   also what .ci/run needs beyond the build: clang, clang-format, clang-tidy, shellcheck, codespell
-#   --help   this text
+#   --tests   also what all tests need: clang with its sanitizers, LaTeX
+#   --lint    also what .ci/run needs beyond the builds: clang-format, clang-tidy, shellcheck, codespell
+#   --help    this text
 #
 # When nothing is missing it does nothing and needs neither network nor rights. Otherwise it runs apt-get as root
 # or by sudo; where it can't, it names the packages and the command, and exits with status 3.
@@ -20,13 +21,16 @@ packages=(
   'gnuplot-nox|gnuplot-qt|gnuplot-x11'
   libgtest-dev libgmock-dev libvalijson-dev libbenchmark-dev
 )
-lint_packages=(clang clang-format clang-tidy shellcheck codespell)
+test_packages=(clang 'libclang-rt-14-dev|libclang-rt-[0-9]+-dev' 'llvm|llvm-[0-9]+'
+  texlive-latex-recommended texlive-science)
+lint_packages=(clang-format clang-tidy shellcheck codespell)
 
 while [ $# -gt 0 ]; do
   case $1 in
+    --tests) packages+=("${test_packages[@]}") ;;
     --lint) packages+=("${lint_packages[@]}") ;;
     -h | --help) usage; exit 0 ;;
-    *) echo "setup.sh: unknown option '$1' (allowed: --lint, --help)" >&2; exit 2 ;;
+    *) echo "setup.sh: unknown option '$1' (allowed: --tests, --lint, --help)" >&2; exit 2 ;;
   esac
   shift
 done
