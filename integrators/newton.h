@@ -108,7 +108,7 @@ class NewtonKernel {
         break;
       }
       if (iteration > 1 && rate > slowest_rate) {
-        if (size <= noise_ || (fresh && at_floor(size, d, scale + largest_d))) {
+        if (size <= noise_ || (fresh && at_floor(size, d, scale, largest_d))) {
           if (fresh) noise_ = std::clamp(noise_growth * to_double(size), noise, matrix_.most_noise());
           finish(iteration);
           break;
@@ -173,9 +173,12 @@ class NewtonKernel {
   // Where constraints depend on each other but for an angle 1 / c (a four-bar that is nearly flat), the position is known to c
   // units along the direction that they hardly hold, and the multipliers, which answer by M d / h^2 along it, to c^2. One
   // correction tells c to a factor of `noise`.
-  bool at_floor(const Linear& size, const Correction& d, const Linear& scale) const {
+  bool at_floor(const Linear& size, const Correction& d, const Linear& scale, const Linear& largest_d) const {
     if (size <= floor) return true;
-    const Linear c = relative(Equation::change(d, system_).template lpNorm<Eigen::Infinity>(), scale);
+    // A system of fixed size is none of these: where it stalls that far above the floor, the step is too large.
+    if (matrix_.most_noise() <= noise) return false;
+    const Linear c =
+        relative(Equation::change(d, system_).template lpNorm<Eigen::Infinity>(), scale + largest_d);
     return c <= floor && size <= noise * noise * c * c;
   }
 
