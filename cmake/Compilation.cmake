@@ -8,9 +8,9 @@ function(liebench_unity target batch)
 endfunction()
 
 # liebench_cold(TARGET): code that runs once a command, not once a step. In release what -O3 gains in its run it loses
-# many times in its compilation; under sanitizers what -O1 gains.
+# many times in its compilation.
 function(liebench_cold target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-O0>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # liebench_precompile(TARGET HEADERS...): the headers that every source of TARGET reads anyhow, read once.
