@@ -43,6 +43,7 @@ class AnyGroup {
   // For A of four rows.
   virtual Matrix times_tangent(const Matrix& A, const Vector& v) const = 0;
   virtual Vector represented(const Vector& q) const = 0;
+  virtual Vector represented_identity() const = 0;
   virtual Vector representative(const Vector& r) const = 0;
   virtual T rotation_angle(const Vector& v) const = 0;
   virtual Eigen::VectorXd separation(const Vector& q, const Vector& p) const = 0;
@@ -109,6 +110,7 @@ class HeldGroup final : public AnyGroup<typename G::Scalar> {
   Vector represented(const Vector& q) const override {
     return stacked_represented(G::represented(element(q)));
   }
+  Vector represented_identity() const override { return stacked_represented(Represented::identity()); }
   Vector representative(const Vector& r) const override {
     return stacked(G::representative(Represented::unstacked(r)));
   }
