@@ -174,6 +174,9 @@ class PreparedScene final : public PreparedProblem {
   SceneReference reference_;
 };
 
+// Version of the numerical code of scenes, as numerical_version is that of all: part of the hash of the content.
+constexpr int scene_version = 2;
+
 // Holds the text that a ProblemInfo points to.
 struct SceneEntry {
   AssembledScene scene;
@@ -187,7 +190,7 @@ std::unique_ptr<SceneEntry> make_entry(const std::string& file) {
   entry->scene = assemble(read_scene_file(file), file);
   entry->name = entry->scene.scene.name;
   entry->summary = entry->scene.scene.summary;
-  const std::string text = content.dump();
+  const std::string text = fmt::format("{}\nscenes, version {}", content.dump(), scene_version);
   const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
   Json parameters;
   parameters["content"] = fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
