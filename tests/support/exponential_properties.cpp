@@ -9,28 +9,19 @@
 
 namespace liebench {
 
-namespace {
-
-template <class T>
-using Samples = GroupSamples<T>;
-template <class T>
-using Vector = typename GroupSamples<T>::Vector;
-
-}  // namespace
-
 template <class T>
 std::vector<Property<T>> exponential_properties() {
   return {
       {"ExpOfZeroIsTheIdentity",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
-         const Vector<T> zero = Vector<T>::Constant(G.dimension(), T(0.0));
+         const auto zero = GroupSamples<T>::Vector::Constant(G.dimension(), T(0.0)).eval();
          EXPECT_EQ(S.distance(G.exp(zero), G.identity()), 0.0);
          EXPECT_EQ(S.length(G.log(G.identity())), 0.0);
        }},
 
       {"ExpOfTheNegativeIsTheInverse",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          for (const double angle : S.angles())
            for (const auto& v : S.tangents(angle)) {
@@ -40,7 +31,7 @@ std::vector<Property<T>> exponential_properties() {
        }},
 
       {"ExpIsAdditiveAlongADirection",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          // exp is valid for every finite v: far beyond pi too. The arguments s v, t v and (s + t) v carry their own
          // roundings, of relative size eps.
@@ -56,7 +47,7 @@ std::vector<Property<T>> exponential_properties() {
        }},
 
       {"LogUndoesExp",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          for (const double angle : S.angles())
            for (const auto& v : S.tangents(angle))
@@ -64,7 +55,7 @@ std::vector<Property<T>> exponential_properties() {
        }},
 
       {"LogUndoesExpOfTinyVectors",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          // Relative to the vector as long as the scalar has its digits there: a product next to the smallest normal
          // number is known to a few denorm_min (the low part of a double-double underflows first).
@@ -75,7 +66,7 @@ std::vector<Property<T>> exponential_properties() {
        }},
 
       {"LogUndoesExpUpToPi",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          // No digit is lost near pi: the quaternion's real part is known to eps there, and so is the angle.
          for (const double gap : {1e-3, 1e-6, 1e-10, 1e-14})
@@ -84,7 +75,7 @@ std::vector<Property<T>> exponential_properties() {
        }},
 
       {"LogAtPiTurnsByPiAndGivesTheElement",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          // The sign of the axis is free at pi, so that the vector is not that of before.
          for (const auto& v : S.tangents(S.pi())) {
@@ -98,7 +89,7 @@ std::vector<Property<T>> exponential_properties() {
        }},
 
       {"ExpUndoesLog",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          for (const auto& q : S.elements()) {
            // log sees the departure of q from the group, at most 50 products.
@@ -107,7 +98,7 @@ std::vector<Property<T>> exponential_properties() {
        }},
 
       {"LogTurnsByAtMostPi",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          const T bound = S.pi() * T(1.0 + S.few * S.eps());
          for (const double angle : {3.0, 3.2, 4.0, 6.0, 6.3, 9.0, 100.0})
@@ -116,7 +107,7 @@ std::vector<Property<T>> exponential_properties() {
        }},
 
       {"RotationAngleIsHomogeneous",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          for (const auto& v : S.tangents(T(1.0)))
            for (const double s : {-2.0, 1e-3, 0.7}) {
@@ -126,7 +117,7 @@ std::vector<Property<T>> exponential_properties() {
            }
        }},
       {"SeparationIsTheLogarithmOfTheQuotient",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          for (const double angle : {1e-3, 0.02, 0.05, 0.0706, 0.0708, 0.1, 0.5, 2.0, 3.1})
            for (const auto& v : S.tangents(T(angle)))
@@ -139,7 +130,7 @@ std::vector<Property<T>> exponential_properties() {
        }},
 
       {"SeparationOfTinyDistancesIsRelativelyExact",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          // Next to the identity, whose entries are exact, at every size.
          for (const double angle : {1e-300, 1e-160, 1e-20, 1e-9, 1e-4}) {
@@ -161,13 +152,13 @@ std::vector<Property<T>> exponential_properties() {
        }},
 
       {"SeparationOfAnElementFromItselfIsZero",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          for (const auto& q : S.elements()) EXPECT_EQ(G.separation(q, q).norm(), 0.0);
        }},
 
       {"DefectOfExponentialsIsRoundOff",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          EXPECT_TRUE(G.defect(G.identity()) == 0.0);
          for (const double angle : S.angles())
@@ -177,7 +168,7 @@ std::vector<Property<T>> exponential_properties() {
        }},
 
       {"RenormalizedSquaresTheDefect",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          double largest = 0;
          for (const auto& q : S.elements()) {
@@ -194,7 +185,7 @@ std::vector<Property<T>> exponential_properties() {
          }
        }},
 
-      {"CastKeepsTheElement", [](const Samples<T>& S) {
+      {"CastKeepsTheElement", [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          for (const auto& q : S.elements()) {
            EXPECT_EQ(S.distance(G.through_extended(q), q), 0.0);

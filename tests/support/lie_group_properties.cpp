@@ -9,20 +9,11 @@
 
 namespace liebench {
 
-namespace {
-
-template <class T>
-using Samples = GroupSamples<T>;
-template <class T>
-using Vector = typename GroupSamples<T>::Vector;
-
-}  // namespace
-
 template <class T>
 std::vector<Property<T>> group_properties() {
   return {
       {"IdentityIsNeutral",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          for (const auto& q : S.elements()) {
            EXPECT_EQ(S.distance(G.compose(q, G.identity()), q), 0.0);
@@ -31,7 +22,7 @@ std::vector<Property<T>> group_properties() {
        }},
 
       {"CompositionIsAssociative",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          const auto all = S.elements();
          for (std::size_t i = 0; i + 8 < all.size(); ++i) {
@@ -42,7 +33,7 @@ std::vector<Property<T>> group_properties() {
        }},
 
       {"InverseUndoesComposition",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          // The samples themselves have left the group by the roundings of the (at most 50) products they came from.
          for (const auto& q : S.elements()) {
@@ -53,7 +44,7 @@ std::vector<Property<T>> group_properties() {
        }},
 
       {"CompositionDoesNotCommuteUnlessTheGroupSaysSo",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          double largest = 0;
          const auto all = S.tangents(T(1.0));
@@ -68,7 +59,7 @@ std::vector<Property<T>> group_properties() {
          }
        }},
       {"CommutatorIsAntisymmetric",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          const auto all = S.tangents(T(1.5));
          for (const auto& v : all)
@@ -79,7 +70,7 @@ std::vector<Property<T>> group_properties() {
        }},
 
       {"CommutatorObeysTheJacobiIdentity",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          const auto all = S.tangents(T(1.5));
          for (std::size_t i = 0; i + 5 < all.size(); ++i) {
@@ -92,7 +83,7 @@ std::vector<Property<T>> group_properties() {
        }},
 
       {"AdIsTheMatrixOfTheCommutator",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          const auto all = S.tangents(T(1.5));
          for (const auto& v : all)
@@ -102,7 +93,7 @@ std::vector<Property<T>> group_properties() {
        }},
 
       {"CommutatorVanishesExactlyWhereTheGroupCommutes",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          double largest = 0;
          const auto all = S.tangents(T(1.0));
@@ -112,7 +103,7 @@ std::vector<Property<T>> group_properties() {
        }},
 
       {"ConjugationIsTheExponentialOfAd",
-       [](const Samples<T>& S) {
+       [](const GroupSamples<T>& S) {
          const AnyGroup<T>& G = S.group();
          // exp(v) exp(w) exp(-v) = exp(Ad w), Ad = e^{ad(v)}; its series cancels by the factor e^|v|.
          const auto small = S.tangents(T(0.8));
@@ -127,10 +118,10 @@ std::vector<Property<T>> group_properties() {
              }
        }},
 
-      {"AdIsTheDerivativeOfConjugation", [](const Samples<T>& S) {
+      {"AdIsTheDerivativeOfConjugation", [](const GroupSamples<T>& S) {
          const AnyGroup<double>& D = S.group().doubles();
          // d/ddelta log(exp(delta) exp(w) exp(-delta)) at delta = 0 is -ad(w).
-         for (const auto& w : Samples<double>(D).tangents(0.9))
+         for (const auto& w : GroupSamples<double>(D).tangents(0.9))
            EXPECT_LE((D.conjugate_by_jets(w) + D.ad(w)).norm(), 16 * S.few * 2.3e-16 * w.norm());
        }}};
 }

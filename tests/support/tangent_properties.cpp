@@ -9,25 +9,16 @@
 
 namespace liebench {
 
-namespace {
-
-template <class T>
-using Samples = GroupSamples<T>;
-template <class T>
-using Vector = typename GroupSamples<T>::Vector;
-
-}  // namespace
-
 template <class T>
 std::vector<Property<T>> tangent_properties() {
   return {{"TangentIsTheDerivativeOfExpByJets",
-           [](const Samples<T>& S) {
+           [](const GroupSamples<T>& S) {
              const AnyGroup<T>& G = S.group();
              // exp(v)^{-1} exp(v + delta) = exp(T(v) delta + O(delta^2)), in double for every scalar of G.
              std::vector<double> angles = S.angles();
              for (const double beyond_pi : {3.3, 5.0, 6.2}) angles.push_back(beyond_pi);
              for (const double angle : angles)
-               for (const auto& v : Samples<double>(G.doubles()).tangents(angle)) {
+               for (const auto& v : GroupSamples<double>(G.doubles()).tangents(angle)) {
                  const Eigen::MatrixXd tangent = G.tangent(v.template cast<T>()).template cast<double>();
                  // The derivative of the rotation matrix is known to eps |v|.
                  EXPECT_LE((G.exp_by_jets(v) - tangent).norm(),
@@ -37,7 +28,7 @@ std::vector<Property<T>> tangent_properties() {
            }},
 
           {"TangentIsTheDerivativeOfExpByDifferences",
-           [](const Samples<T>& S) {
+           [](const GroupSamples<T>& S) {
              const AnyGroup<T>& G = S.group();
              // Central differences of order 4: error d^4 |f^(5)| / 30 + (3/2) noise / d, noise of a few eps; both are of
              // size eps^(4/5) at d = eps^(1/5).
@@ -48,12 +39,12 @@ std::vector<Property<T>> tangent_properties() {
                  const auto back = G.inverse(G.exp(v));
                  const auto matrix = G.tangent(v);
                  for (int i = 0; i < G.dimension(); ++i) {
-                   const auto at = [&](double s) -> Vector<T> {
-                     Vector<T> w = v;
+                   const auto at = [&](double s) {
+                     auto w = v;
                      w(i) += T(s);
                      return G.log(G.compose(back, G.exp(w)));
                    };
-                   const Vector<T> difference =
+                   const typename GroupSamples<T>::Vector difference =
                        (T(8.0) * (at(d) - at(-d)) - (at(2 * d) - at(-2 * d))) / T(12.0 * d);
                    EXPECT_LE(S.length(difference - matrix.col(i)), tolerance * (1 + S.length(v))) << angle;
                  }
@@ -61,7 +52,7 @@ std::vector<Property<T>> tangent_properties() {
            }},
 
           {"TangentIsItsSeries",
-           [](const Samples<T>& S) {
+           [](const GroupSamples<T>& S) {
              const AnyGroup<T>& G = S.group();
              // The series cancels by the factor e^|v|.
              for (const double angle : S.angles())
@@ -72,7 +63,7 @@ std::vector<Property<T>> tangent_properties() {
            }},
 
           {"TangentInverseIsTheInverse",
-           [](const Samples<T>& S) {
+           [](const GroupSamples<T>& S) {
              const AnyGroup<T>& G = S.group();
              std::vector<double> angles = S.angles();
              for (const double beyond_pi : {3.2, 4.0, 5.0, 6.0, 6.2}) angles.push_back(beyond_pi);
@@ -90,7 +81,7 @@ std::vector<Property<T>> tangent_properties() {
            }},
 
           {"TangentLeavesItsOwnArgument",
-           [](const Samples<T>& S) {
+           [](const GroupSamples<T>& S) {
              const AnyGroup<T>& G = S.group();
              const double underflow = 64 * std::numeric_limits<double>::denorm_min();
              for (const double angle : {1e-300, 1e-160, 1e-9, 0.4, 1.1, 2.6, 3.1, 5.0}) {
@@ -103,7 +94,7 @@ std::vector<Property<T>> tangent_properties() {
            }},
 
           {"TangentAtTinyVectorsHasTheLinearTermOnly",
-           [](const Samples<T>& S) {
+           [](const GroupSamples<T>& S) {
              const AnyGroup<T>& G = S.group();
              for (const double angle : {1e-300, 1e-160, 1e-40})
                for (const auto& v : S.tangents(T(angle))) {
@@ -115,9 +106,9 @@ std::vector<Property<T>> tangent_properties() {
            }},
 
           {"TimesTangentIsTheProductWithTheMatrix",
-           [](const Samples<T>& S) {
+           [](const GroupSamples<T>& S) {
              const AnyGroup<T>& G = S.group();
-             typename Samples<T>::Matrix A(4, G.dimension());
+             typename GroupSamples<T>::Matrix A(4, G.dimension());
              for (int i = 0; i < A.rows(); ++i)
                for (int j = 0; j < A.cols(); ++j) A(i, j) = T(std::cos(3.0 * i + 7.0 * j + 0.1));
              for (const double angle : S.angles())
@@ -126,7 +117,7 @@ std::vector<Property<T>> tangent_properties() {
            }},
 
           {"TangentTimesIsTheProductWithTheMatrix",
-           [](const Samples<T>& S) {
+           [](const GroupSamples<T>& S) {
              const AnyGroup<T>& G = S.group();
              const auto others = S.tangents(T(1.5));
              for (const double angle : S.angles())
@@ -138,7 +129,7 @@ std::vector<Property<T>> tangent_properties() {
            }},
 
           {"DerivativesAtZeroAreFiniteAndRight",
-           [](const Samples<T>& S) {
+           [](const GroupSamples<T>& S) {
              const AnyGroup<double>& D = S.group().doubles();
              // A norm or a division by the angle would make them NaN.
              const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(D.dimension(), D.dimension());
@@ -151,13 +142,13 @@ std::vector<Property<T>> tangent_properties() {
              }
            }},
           {"RepresentedKeepsTheIdentity",
-           [](const Samples<T>& S) {
+           [](const GroupSamples<T>& S) {
              const AnyGroup<T>& G = S.group();
              EXPECT_EQ(S.distance(G.represented(G.identity()), G.represented_identity()), 0.0);
            }},
 
           {"RepresentedKeepsProductsAndInverses",
-           [](const Samples<T>& S) {
+           [](const GroupSamples<T>& S) {
              const AnyGroup<T>& G = S.group();
              // A quaternion that is off the group by the roundings of 50 products, too, represents what is off by as much.
              const auto all = S.elements();
@@ -173,7 +164,7 @@ std::vector<Property<T>> tangent_properties() {
            }},
 
           {"RepresentedOfExpIsKnown",
-           [](const Samples<T>& S) {
+           [](const GroupSamples<T>& S) {
              const AnyGroup<T>& G = S.group();
              for (const double angle : S.angles())
                for (const auto& v : S.tangents(T(angle))) {
@@ -184,7 +175,7 @@ std::vector<Property<T>> tangent_properties() {
            }},
 
           {"RepresentativeRepresentsWhatItIsOf",
-           [](const Samples<T>& S) {
+           [](const GroupSamples<T>& S) {
              const AnyGroup<T>& G = S.group();
              for (const auto& q : S.elements()) {
                const double tolerance = 50 * S.few * S.eps() * S.scale(q);
@@ -194,7 +185,7 @@ std::vector<Property<T>> tangent_properties() {
              }
            }},
 
-          {"AllRepresentationsAreOneElement", [](const Samples<T>& S) {
+          {"AllRepresentationsAreOneElement", [](const GroupSamples<T>& S) {
              const AnyGroup<T>& G = S.group();
              for (const auto& q : S.elements())
                for (const auto& p : G.representations(q)) {
