@@ -35,7 +35,6 @@ class PatternedMatrix {
       : size_(other.size_),
         dense_(other.dense_),
         matrix_(other.matrix_),
-        rows_(other.rows_),
         order_(other.order_),
         inverse_pivots_(other.inverse_pivots_),
         entries_(other.entries_),
@@ -189,7 +188,6 @@ class PatternedMatrix {
     return inlined<T>([&] {
       using std::abs;
       const Eigen::Index n = size_;
-      rows_.resize(std::size_t(n));
       order_.resize(std::size_t(n));
       std::iota(order_.begin(), order_.end(), Eigen::Index{0});
       inverse_pivots_.resize(std::size_t(n));
@@ -200,7 +198,6 @@ class PatternedMatrix {
         for (Eigen::Index i = j + 1; i < n; ++i)
           if (abs(pivots[pivot]) < abs(pivots[i])) pivot = i;
         if (!(T(0.0) < abs(pivots[pivot])) || !std::isfinite(to_double(pivots[pivot]))) return false;
-        rows_[std::size_t(j)] = pivot;
         std::swap(order_[std::size_t(j)], order_[std::size_t(pivot)]);
         if (pivot != j)
           for (Eigen::Index c = 0; c < n; ++c) std::swap(A[c * n + j], A[c * n + pivot]);
@@ -228,17 +225,22 @@ class PatternedMatrix {
         return solve_sized<12>(b);
       case 18:
         return solve_sized<18>(b);
-      default:
-        for (Eigen::Index j = 0; j < size_; ++j) std::swap(b(j), b(rows_[std::size_t(j)]));
-        return substitute(size_, matrix_.data(), inverse_pivots_.data(), b.data());
+      default: {
+        std::array<T, std::size_t(largest_dense)> x;
+        return solve_in(x, size_, b);
+      }
     }
   }
   template <int n, class Vector>
   void solve_sized(Vector& b) const {
     std::array<T, std::size_t(n)> x;  // in registers, as far as there are some
+    solve_in(x, std::integral_constant<int, n>(), b);
+  }
+  template <class Room, class Size, class Vector>
+  [[gnu::always_inline]] void solve_in(Room& x, Size n, Vector& b) const {
     for (std::size_t j = 0; j < std::size_t(n); ++j) x[j] = b(order_[j]);
-    substitute(std::integral_constant<int, n>(), matrix_.data(), inverse_pivots_.data(), x.data());
-    std::copy_n(x.begin(), n, b.data());
+    substitute(n, matrix_.data(), inverse_pivots_.data(), x.data());
+    std::copy_n(x.begin(), std::size_t(n), b.data());
   }
   template <class Size>
   [[gnu::always_inline]] static void substitute(Size size, const T* A, const T* inverse_pivots, T* x) {
@@ -259,9 +261,8 @@ class PatternedMatrix {
   Eigen::Index size_;
   bool dense_;
   std::size_t next_ = 0;
-  // Dense: the matrix, then its factors, and the row that each step exchanged.
+  // Dense: the matrix, then its factors.
   Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> matrix_;
-  std::vector<Eigen::Index> rows_;
   std::vector<Eigen::Index> order_;  // the row of A that has become row j
   std::vector<T> inverse_pivots_;
   // Sparse, by columns.
