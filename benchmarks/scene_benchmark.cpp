@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "benchmarks/step.h"
 #include "harness/instances/scene_steppers.h"
 #include "integrators/bliedf2nd.h"

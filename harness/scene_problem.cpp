@@ -46,8 +46,9 @@ class SceneMonitor {
     const Wide wide_lambda = lambda.template cast<Extended>();
     take(q_, reference_.group().separation(wide_q, exact.q).template lpNorm<Eigen::Infinity>());
     take(v_, detail::max_norm(Wide(wide_v - exact.v)));
-    // Points are seen in their order.
-    if (agrees_ && q_.end_absolute < SceneReference::agreement && to_double(t) <= reference_.agreement_time())
+    // Points are seen in their order. The last may be a rounding beyond the end of the reference.
+    const double known = reference_.agreement_time() * (1.0 + 1e-12);
+    if (agrees_ && q_.end_absolute < SceneReference::agreement && to_double(t) <= known)
       agreement_time_ = to_double(t);
     else
       agrees_ = false;
