@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "harness/cli/commands.h"
 #include "harness/errors.h"
 #include "harness/methods.h"
 #include "harness/run_method.h"
@@ -65,11 +66,11 @@ void add_scene_plan(CLI::App& command, ScenePlanOptions& options) {
       ->type_name("KEY=VALUE");
   command.add_option("--h", options.step_size, "step size in s; made smaller until it divides the interval")
       ->type_name("H")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command.add_option("--t-end", options.t_end, "end of the interval in s; the scene's own where absent")
       ->type_name("T")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
 }
 
 ScenePlan plan_scene(const ScenePlanOptions& options) {

@@ -93,7 +93,7 @@ void add_table(CLI::App& app, int&) {
   command
       ->add_option("--step-size", options->step_size,
                    "costs: of the runs of this step size; the finest that ended well where absent")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("H");
   command->add_flag("--skip-bad-lines", options->skip_bad_lines,
                     "name lines that are no records on standard error and use the others");

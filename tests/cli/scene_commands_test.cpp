@@ -101,7 +101,8 @@ TEST_F(SceneCommandsTest, WrongOptionsAreRefusedBeforeAnythingRuns) {
            {{"simulate", scene("heavy_top"), "--integrator", "bliedf"}, "did you mean \"bliedf2nd\""},
            {{"simulate", scene("heavy_top"), "--option", "k=9"}, "an integer from 1 to 6"},
            {{"simulate", scene("heavy_top"), "--option", "l=2"}, "allowed: KEY=VALUE"},
-           {{"simulate", scene("heavy_top"), "--h", "-1"}, "--h"},
+           {{"simulate", scene("heavy_top"), "--h", "-1"},
+            "--h: \"-1\" is not allowed; allowed: a positive number"},
            {{"simulate", scene("heavy_top"), "--h", "1e-12"}, "at most"},
        }) {
     const ProgramResult result = run(c.arguments);
