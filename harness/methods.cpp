@@ -80,6 +80,11 @@ bool applies(const OptionInfo& info, bool constrained, const OptionValues& value
   return true;
 }
 
+bool goes_without_saying(const OptionInfo& info, const OptionValues& values) {
+  const auto place = values.all().find(info.name);
+  return info.unsaid && place != values.all().end() && place->second == option_default(info);
+}
+
 std::string scope_text(const OptionInfo& info) {
   switch (info.scope) {
     case OptionScope::everywhere:

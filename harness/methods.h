@@ -28,6 +28,9 @@ OptionValue option_default(const OptionInfo& info, bool self_start = false);
 // Whether an option means something: for a problem without constraints, for the form among `values`.
 bool applies(const OptionInfo& info, bool constrained, const OptionValues& values);
 
+// Whether the option is one that is left out where it has its default.
+bool goes_without_saying(const OptionInfo& info, const OptionValues& values);
+
 // What a problem or an option must be for this one to mean something: `"form": "index3" and constraints`.
 std::string scope_text(const OptionInfo& info);
 

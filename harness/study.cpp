@@ -156,7 +156,8 @@ std::vector<MethodChoice> read_methods(const JsonView& list, Start start) {
 OptionValues applicable_options(const MethodInfo& method, OptionValues options,
                                 const FormulationInfo& formulation) {
   for (const OptionInfo& info : method.options)
-    if (!applies(info, formulation.constraints > 0, options)) options.erase(info.name);
+    if (!applies(info, formulation.constraints > 0, options) || goes_without_saying(info, options))
+      options.erase(info.name);
   return options;
 }
 

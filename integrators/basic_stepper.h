@@ -41,11 +41,12 @@ class BasicStepper {
   static constexpr int l = S::constraints;
   static constexpr bool stabilized = Kernel::Equation::stabilized;
 
-  explicit BasicStepper(const S& system)
+  BasicStepper(const S& system, bool safeguard)
       : newton_(system),
         q_(group_of(system).identity()),
         velocity_(zero_velocity(system)),
-        lambda_(zero_multipliers(system)) {}
+        lambda_(zero_multipliers(system)),
+        safeguard_(safeguard) {}
 
   // Solves the step equation and moves to its solution. `scaled_lambda` is the prediction of h lambda_{n+1}, and its
   // value afterwards; `change` the same of d = Dq_n - base, without B^T eta.
@@ -58,9 +59,13 @@ class BasicStepper {
     if constexpr (l != 0) Equation::scaled_lambda(z, system()) = scaled_lambda;
     if constexpr (stabilized) Equation::eta(z, system()).setConstant(T(0.0));
     const T t = t_ + h_;
-    const StepResult result = newton_.solve(t, h_, q_, closure, z, point);
-    if (result.outcome != Outcome::ok) return result;
-    if (!turns_by_less_than_pi(point.step)) return {Outcome::rotation_too_large};
+    StepResult result = newton_.solve(t, h_, q_, closure, z, point);
+    if (result.outcome == Outcome::ok && !turns_by_less_than_pi(point.step))
+      result = {Outcome::rotation_too_large};
+    if (result.outcome != Outcome::ok) {
+      if (!safeguard_ || !solve_again(t, closure, z, point)) return result;
+      result = {};
+    }
     t_ = t;
     q_ = point.q;
     velocity_ = point.values.velocity;
@@ -70,6 +75,23 @@ class BasicStepper {
       lambda_ = scaled_lambda / h_;
     }
     return result;
+  }
+
+  // Damped, from the last multipliers and the increment that the method expects of an undisturbed motion (d = 0), or none at all (a stiff
+  // spring that was not at rest). False where both fail.
+  template <class Closure>
+  [[gnu::noinline, gnu::cold]] bool solve_again(const T& t, const Closure& closure,
+                                                typename Kernel::Unknowns& z, Point& point) {
+    using Equation = typename Kernel::Equation;
+    for (const bool at_rest : {false, true}) {
+      z.setConstant(T(0.0));
+      if (at_rest) Equation::change(z, system()) = -closure.base();
+      if constexpr (l != 0) Equation::scaled_lambda(z, system()) = h_ * lambda_;
+      if (newton_.solve_damped(t, h_, q_, closure, z, point).outcome == Outcome::ok &&
+          turns_by_less_than_pi(point.step))
+        return true;
+    }
+    return false;
   }
 
   // False for a NaN, too.
@@ -83,6 +105,7 @@ class BasicStepper {
   Configuration<S> q_;
   Velocity<S> velocity_;   // v_n
   Multipliers<S> lambda_;  // lambda_n
+  bool safeguard_;
 };
 
 }  // namespace liebench

@@ -80,7 +80,7 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
 
   template <class Options>
   BdfStepper(const S& system, const Options& options)
-      : Base(system),
+      : Base(system, options.safeguard),
         modified_start_(options.modified_start),
         state_(system, options.k),
         kinematics_(system, options),

@@ -47,6 +47,7 @@ struct BLieDF2nd {
            "t_{n+1}, stable in the index-3 form where the explicit one of k = 5, 6 is not"},
       modified_start_option,
       form_option,
+      safeguard_option,
   });
 
   struct Options {
@@ -54,13 +55,15 @@ struct BLieDF2nd {
     Correction correction = Correction::explicit_term;
     bool modified_start = false;
     Form form = Form::index3;
+    bool safeguard = false;
 
     bool explicit_correction() const { return correction == Correction::explicit_term; }
   };
   static Options options(const OptionValues& values) {
     Options options{.k = values.integer("k"),
                     .modified_start = values.boolean_or("modified_start", false),
-                    .form = form_of(values.choice_or("form", ""))};
+                    .form = form_of(values.choice_or("form", "")),
+                    .safeguard = values.boolean_or("safeguard", false)};
     if (values.is_choice("correction"))
       options.correction = Correction::implicit_term;
     else if (!values.boolean("correction"))

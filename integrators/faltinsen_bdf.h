@@ -40,6 +40,7 @@ struct FaltinsenBdf {
        .meaning = "logarithms, or series with the least number of commutators"},
       modified_start_option,
       form_option,
+      safeguard_option,
   });
 
   enum class Variant { exact, bch };
@@ -48,6 +49,7 @@ struct FaltinsenBdf {
     Variant variant = Variant::exact;
     bool modified_start = false;
     Form form = Form::index3;
+    bool safeguard = false;
 
     bool explicit_correction() const { return false; }
   };
@@ -55,7 +57,8 @@ struct FaltinsenBdf {
     return {.k = values.integer("k"),
             .variant = values.choice("variant") == "bch" ? Variant::bch : Variant::exact,
             .modified_start = values.boolean_or("modified_start", false),
-            .form = form_of(values.choice_or("form", ""))};
+            .form = form_of(values.choice_or("form", "")),
+            .safeguard = values.boolean_or("safeguard", false)};
   }
 
   // Where no logarithm and no commutator enters, the method is BLieDF2nd without a correction.

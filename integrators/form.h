@@ -35,6 +35,15 @@ inline constexpr OptionInfo modified_start_option{
         "starting velocities moved by the local error, eq. (56): without them lambda loses an order in the "
         "transient phase of the index-3 form"};
 
+inline constexpr OptionInfo safeguard_option{
+    .name = "safeguard",
+    .kind = OptionKind::boolean,
+    .fallback = 0,
+    .unsaid = true,
+    .meaning =
+        "solve a step again where Newton's iteration fails or turns too far: damped, from the last "
+        "increment, to what rounding leaves"};
+
 // A run-time option as a compile-time parameter of a stepper.
 template <Form form>
 struct FormConstant {};

@@ -50,17 +50,20 @@ struct GeneralizedAlpha {
        .meaning = "spectral radius at infinity: 1 no damping, 0 the strongest"},
       modified_start_option,
       form_option,
+      safeguard_option,
   });
 
   struct Options {
     double rho_inf = 0.9;
     bool modified_start = false;
     Form form = Form::index3;
+    bool safeguard = false;
   };
   static Options options(const OptionValues& values) {
     return {.rho_inf = values.real("rho_inf"),
             .modified_start = values.boolean_or("modified_start", false),
-            .form = form_of(values.choice_or("form", ""))};
+            .form = form_of(values.choice_or("form", "")),
+            .safeguard = values.boolean_or("safeguard", false)};
   }
 
   template <MechanicalSystem S, Form form, class Audit = NoAudit>
@@ -86,7 +89,7 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
   int starting_points() const { return 1; }
 
   Stepper(const S& system, const Options& options)
-      : Base(system),
+      : Base(system, options.safeguard),
         modified_start_(options.modified_start),
         parameters_(decimal<T>(options.rho_inf)),
         acceleration_(zero_velocity(system)),
@@ -105,15 +108,17 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
     lambda_ = points[0].lambda;
     std::array<Velocity<S>, 2> around;
     const auto group = group_of(system());
+    const T width = Base::safeguard_ ? width_of_start(h) : h;
     for (const int side : {0, 1}) {
-      const T s = side == 0 ? T(-h) : h;
+      const T s = side == 0 ? T(-width) : width;
       const Velocity<S> step = s * velocity_ + (s * s / T(2.0)) * acceleration_;
       const auto a = consistent_dynamics(system(), T(t_ + s), group.compose(q_, group.exp(step)),
                                          Velocity<S>(velocity_ + s * acceleration_), newton_.audit());
       if (!a) return {Outcome::singular_matrix};
       around[std::size_t(side)] = a->acceleration;
     }
-    const Velocity<S> scaled_jerk = (around[1] - around[0]) / T(2.0);  // h v''_0
+    Velocity<S> scaled_jerk = (around[1] - around[0]) / T(2.0);  // h v''_0
+    if (Base::safeguard_) scaled_jerk *= h / width;
     const T shift = parameters_.alpha_m - parameters_.alpha_f;
     a_ = acceleration_ + shift * scaled_jerk;
     if constexpr (S::constraints != 0 && form == Form::index3)
@@ -157,6 +162,18 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
   using Base::q_;
   using Base::t_;
   using Base::velocity_;
+
+  // How far before and after t_0 the accelerations are taken: a step, unless the initial acceleration would turn a body by pi and more
+  // in it (a stiff spring that is not at rest), where they would say nothing of t_0.
+  T width_of_start(const T& h) const {
+    T width = h;
+    for (int halvings = 0; halvings < 64; ++halvings, width /= T(2.0)) {
+      const Velocity<S> forth = width * velocity_ + (width * width / T(2.0)) * acceleration_;
+      const Velocity<S> back = (width * width / T(2.0)) * acceleration_ - width * velocity_;
+      if (Base::turns_by_less_than_pi(forth) && Base::turns_by_less_than_pi(back)) break;
+    }
+    return width;
+  }
 
   // With d = Dq - v_n - h a_n / 2 = beta h (a_{n+1} - a_n):
   //   v_{n+1} = v_n + h a_n + (gamma / beta) d

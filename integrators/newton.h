@@ -64,6 +64,70 @@ class NewtonKernel {
     }
   }
 
+  // The same by a damped iteration, from where `z` is: slower, and for what the one above gives up. A correction d is taken as z - mu d
+  // with the largest mu = 1, 1/2, ... for which the next simplified correction is smaller, |J^{-1} r(z - mu d)| <= (1 - mu / 4) |d| [the
+  // natural monotonicity test, Deuflhard 2004, Newton Methods for Nonlinear Problems, ch. 3.3]; every correction has a matrix of its
+  // own. Where no mu is small enough the iteration has converged if rounding is what is left (at_rounding()), or has diverged.
+  template <class Closure>
+  [[gnu::noinline, gnu::cold]] StepResult solve_damped(const T& t, const T& h, const Configuration<S>& q_n,
+                                                       const Closure& closure, Unknowns& z, Point& point) {
+    const Linear scale = fixed_scale(closure, q_n, to_linear(h));
+    Unknowns r = Equation::unknowns(system_), tried = z;
+    const auto residual_at = [&](const Unknowns& at) {
+      Equation::evaluate(system_, h, q_n, closure, at, point);
+      Equation::residual(system_, t, h, point, at, r);
+      audit_.iteration();
+    };
+    Linear previous_size(0.0);
+    residual_at(z);
+    for (int iteration = 1; iteration <= max_damped_iterations; ++iteration) {
+      if (!is_finite(r)) return failure(Outcome::non_finite, r);
+      if (const Outcome formed = factorize(t, h, q_n, closure, z, z, FactorizationCause::slow_convergence);
+          formed != Outcome::ok)
+        return failure(formed, r);
+      const Correction d = matrix_.solve(in_linear_scalar(r));
+      audit_.solve();
+      Linear largest_d;
+      const Linear size = weighted_norm(d, z, scale, largest_d);
+      if (!std::isfinite(to_double(size))) return failure(Outcome::non_finite, r);
+      if (size <= unit) {
+        z -= d.template cast<T>();
+        Equation::evaluate(system_, h, q_n, closure, z, point);
+        finish(iteration);
+        return {};
+      }
+      // Where the corrections have stopped to converge quadratically, rounding may be all that is left; smaller steps would creep.
+      if (iteration > 1 && size > Linear(slowest_rate) * previous_size &&
+          (size <= Linear(floor) || at_rounding(t, h, q_n, d, z, point, r))) {
+        finish(iteration);
+        return {};
+      }
+      previous_size = size;
+      bool shrunk = false;
+      for (int halvings = 0; halvings <= most_halvings && !shrunk; ++halvings) {
+        const Linear mu = std::ldexp(1.0, -halvings);
+        tried = z - (mu * d).template cast<T>();
+        residual_at(tried);
+        if (!is_finite(r)) continue;
+        const Correction next = matrix_.solve(in_linear_scalar(r));
+        audit_.solve();
+        Linear unused;
+        shrunk = weighted_norm(next, z, scale, unused) <= (Linear(1.0) - mu / Linear(4.0)) * size;
+      }
+      if (shrunk) {
+        z = tried;
+        continue;
+      }
+      residual_at(z);
+      if (at_floor(size, d, scale, largest_d) || at_rounding(t, h, q_n, d, z, point, r)) {
+        finish(iteration);
+        return {};
+      }
+      return failure(Outcome::newton_diverged, r);
+    }
+    return failure(Outcome::newton_diverged, r);
+  }
+
  private:
   template <class Closure>
   [[gnu::flatten]] StepResult solve_inlined(const T& t, const T& h, const Configuration<S>& q_n,
@@ -98,7 +162,8 @@ class NewtonKernel {
       const Linear size = weighted_norm(d, z, scale, largest_d);
       if (!std::isfinite(to_double(size))) return failure(Outcome::non_finite, r);
       if constexpr (may_have_commutators<S>())
-        if (to_double(largest_d * to_linear(h)) > farthest) return failure(Outcome::newton_diverged, r);
+        if (to_double(largest_d * abs_of(to_linear(h))) > farthest)
+          return failure(Outcome::newton_diverged, r);
 
       // Below one unit a size is noise: it bounds the rate, it does not measure it.
       const Linear rate = iteration > 1 ? std::max(size, Linear(1.0)) / previous : rate_;
@@ -134,6 +199,8 @@ class NewtonKernel {
   }
 
   static constexpr int max_iterations = 60;
+  static constexpr int max_damped_iterations = 100;
+  static constexpr int most_halvings = 40;
   // rad: no sine is worth taking beyond.
   static constexpr double farthest = 1e8;
   static constexpr double slowest_rate = 0.5;
@@ -149,6 +216,8 @@ class NewtonKernel {
   static constexpr double noise = 32.0;
   static constexpr double floor = 1e5;
   static constexpr double noise_growth = 4.0;
+  // Of a residual: sums of some dozen products, and what they are made of.
+  static constexpr double rounding = 256.0;
 
   using StepMatrix = typename StepMatrixOf<S, form>::type;
   using Correction = Eigen::Matrix<Linear, n, 1, 0, Equation::most, 1>;
@@ -166,7 +235,7 @@ class NewtonKernel {
   Linear fixed_scale(const Closure& closure, const Configuration<S>& q_n, const Linear& h) const {
     Linear scale = Linear(0.01) * closure.base().template cast<Linear>().template lpNorm<Eigen::Infinity>();
     if (multiplier_size(system_) != 0)
-      scale += S::Group::stacked(q_n).template cast<Linear>().template lpNorm<Eigen::Infinity>() / h;
+      scale += S::Group::stacked(q_n).template cast<Linear>().template lpNorm<Eigen::Infinity>() / abs_of(h);
     return scale;
   }
 
@@ -181,6 +250,39 @@ class NewtonKernel {
         relative(Equation::change(d, system_).template lpNorm<Eigen::Infinity>(), scale + largest_d);
     return c <= floor && size <= noise * noise * c * c;
   }
+
+  // What rounding leaves: a correction that moves q by no more units of its round-off than `noise`, or a residual that is no more
+  // units of the sums that it is the difference of, group by group of rows, than `rounding`. The light bodies of a scene know their
+  // acceleration to what the heavy ones round away, and a thin rod the one about its axis to what those across leave.
+  bool at_rounding(const T& t, const T& h, const Configuration<S>& q_n, const Correction& d,
+                   const Unknowns& z, const Point& point, const Unknowns& r) const {
+    const auto largest = [](const auto& v) {
+      return v.size() == 0 ? Linear(0.0) : to_linear(T(v.template lpNorm<Eigen::Infinity>()));
+    };
+    const Linear eps(to_double(Eigen::NumTraits<T>::epsilon()));
+    const Linear step = abs_of(to_linear(h));
+    const Linear position = largest(S::Group::stacked(q_n)) / step;
+    if (Equation::change(d, system_).template lpNorm<Eigen::Infinity>() <= Linear(noise) * eps * position)
+      return true;
+    const Linear allowed = Linear(rounding) * eps;
+    const auto& v = point.values.velocity;
+    Linear sum = largest(Velocity<S>(system_.momentum(point.q, point.values.scaled_acceleration))) +
+                 step * largest(Velocity<S>(system_.force(t, point.q, v)));
+    if constexpr (l != 0)
+      if (multiplier_size(system_) != 0) {
+        const Multipliers<S> lambda = Equation::scaled_lambda(z, system_);
+        sum += largest(Velocity<S>(system_.constraint_force(point.q, lambda)));
+        if (!(largest(Multipliers<S>(Equation::scaled_lambda(r, system_))) <= allowed * position))
+          return false;
+        if constexpr (Equation::stabilized)
+          if (!(largest(Multipliers<S>(Equation::eta(r, system_))) <=
+                allowed * largest(v) * std::max(Linear(1.0), position * step)))
+            return false;
+      }
+    return largest(Velocity<S>(Equation::change(r, system_))) <= allowed * sum;
+  }
+  static bool is_finite(const Unknowns& r) { return std::isfinite(to_double(T(r.squaredNorm()))); }
+  static Linear abs_of(const Linear& x) { return x < Linear(0.0) ? Linear(-x) : x; }
 
   // Corrections in units of round-off of the unknowns; and the largest |d_i| of z.
   [[gnu::always_inline]] Linear weighted_norm(const Correction& d, const Unknowns& z, Linear scale,

@@ -28,6 +28,7 @@ struct OptionInfo {
   double most = 0.0;
   std::array<std::string_view, 4> choices{};  // empty words do not count
   OptionScope scope = OptionScope::everywhere;
+  bool unsaid = false;  // absent, too, where it has its default
   std::string_view meaning;
 };
 
