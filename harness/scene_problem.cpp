@@ -176,7 +176,7 @@ class PreparedScene final : public PreparedProblem {
 };
 
 // Version of the numerical code of scenes, as numerical_version is that of all: part of the hash of the content.
-constexpr int scene_version = 2;
+constexpr int scene_version = 3;
 
 // Holds the text that a ProblemInfo points to.
 struct SceneEntry {

@@ -14,6 +14,7 @@
 #include "integrators/bliedf2nd.h"
 #include "integrators/faltinsen_bdf.h"
 #include "integrators/generalized_alpha.h"
+#include "problems/scene_examples.h"
 #include "tests/harness/scene_runs.h"
 
 // Scenes with loops and joints against the same mechanisms in generalized coordinates, as many as they have degrees of freedom: no
@@ -194,6 +195,27 @@ TEST(SliderCrank, MovesAsInOneCoordinate) {
                       {BLieDF2nd::Options{.k = 4}, 4},
                       {GeneralizedAlpha::Options{}, 2},
                       {FaltinsenBdf::Options{.k = 3}, 3}});
+}
+
+// --- windows -----------------------------------------------------------------------------------------------------
+
+// See four_bar(). 201 bodies and 1505 constraints, of which 300 are redundant; up to three quarters of the way to the flat place.
+TEST(Windows, AHundredOfThemAreTheirPendulum) {
+  const int n = 100;
+  const AssembledScene scene = assemble(four_bar(n), "four_bar");
+  const double t_end = 0.5;
+  const Real w2 = 9.81L * ((n + 1) / 2.0L + n) / ((n + 1) / 3.0L + n);
+  const auto exact = integrated<2>({0.0L, 1.0L}, t_end, [&](const std::array<Real, 2>& y) {
+    return std::array<Real, 2>{y[1], w2 * std::sin(y[0])};
+  });
+  const auto end = [&](const MethodOptions& method, double h) {
+    const Sample sample = end_of_motion(scene, method, h, t_end);
+    const BodySample &first = sample.bodies.front(), &last = sample.bodies.back();
+    return Result{std::atan2(first.position[0], first.position[1]), -first.angular_velocity[2],
+                  std::atan2(last.position[0] - n, last.position[1]), -last.angular_velocity[2]};
+  };
+  expect_convergence(end, {exact[0], exact[1], exact[0], exact[1]}, 0x1p-6,
+                     {{BLieDF2nd::Options{.k = 3}, 3}, {GeneralizedAlpha::Options{}, 2}});
 }
 
 // --- flyball governor --------------------------------------------------------------------------------------------
