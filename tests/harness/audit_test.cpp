@@ -17,10 +17,14 @@ namespace {
 class AuditTest : public testing::Test {
  protected:
   std::vector<Json> run(const std::string& integrators, const std::string& rest) const {
-    const Study study = read_study(parse_json(
-        R"({"name": "audit", "problems": [{"name": "heavy_top", "formulation": ["SO3", "R3xSO3", "SE3"]}], "integrators": )" +
-            integrators + ", " + rest + "}",
-        "audit"));
+    return run_problem(R"({"name": "heavy_top", "formulation": ["SO3", "R3xSO3", "SE3"]})", integrators,
+                       rest);
+  }
+  std::vector<Json> run_problem(const std::string& problem, const std::string& integrators,
+                                const std::string& rest) const {
+    const Study study = read_study(parse_json(R"({"name": "audit", "problems": [)" + problem +
+                                                  R"(], "integrators": )" + integrators + ", " + rest + "}",
+                                              "audit"));
     std::vector<Json> records(study.runs.size());
     Progress progress("", 1.0);
     execute(study.runs, 2, ReferenceCache(cache_.path()), progress,
@@ -134,6 +138,26 @@ TEST_F(AuditTest, AFailedRunHasItsCountsUpToTheFailure) {
     EXPECT_GT(count(record, "flops"), 0u);
   }
   EXPECT_GT(failed, 0);
+}
+
+// Of n unknowns: a dense factorization divides n (n + 1) / 2 times, KLU counts n of them.
+TEST_F(AuditTest, ASceneSaysWhatFactorizedItsNewtonMatrices) {
+  const std::string crank = R"({"scene": ")" LIEBENCH_SOURCE_DIR R"(/problems/scenes/slider_crank.json"})";
+  // 18 velocities and 17 constraints; twice as many unknowns in the stabilized form.
+  const auto records =
+      run_problem(crank, R"([{"name": "bliedf2nd", "form": ["index3", "stabilized_index2"]}])",
+                  R"("step_sizes": [1e-3], "t_end": 0.05, "precision": ["double", "extended"])");
+  ASSERT_EQ(records.size(), 4u);
+  for (const Json& record : records) {
+    const bool large = record.at("options").at("form") == "stabilized_index2";
+    EXPECT_EQ(record.at("solver"), large ? "klu" : "dense_lu") << record;
+    if (record.at("precision") == "extended") continue;
+    const auto divisions = record.at("cost").at("flops_by_kind").at("divide").get<std::uint64_t>();
+    const std::uint64_t n = large ? 70 : 35;
+    EXPECT_EQ(divisions >= count(record, "factorizations") * n * (n + 1) / 2, !large) << record;
+  }
+  for (const Json& record : run(R"([{"name": "bliedf2nd"}])", from_reference))
+    EXPECT_FALSE(record.contains("solver")) << "a matrix of fixed size";
 }
 
 }  // namespace
