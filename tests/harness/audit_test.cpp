@@ -140,6 +140,64 @@ TEST_F(AuditTest, AFailedRunHasItsCountsUpToTheFailure) {
   EXPECT_GT(failed, 0);
 }
 
+// --- scenes ------------------------------------------------------------------------------------------------
+
+class SceneAuditTest : public AuditTest {
+ protected:
+  // A rod on a joint, and a bead on a string from its end: two bodies, of which one rotates.
+  std::vector<Json> run_beads(const std::string& integrators, const std::string& rest) {
+    folder_.write("beads.json",
+                  R"({"name": "beads", "bodies": [
+      {"name": "rod", "mass": 1, "shape": {"type": "rod", "length": 1, "width": 0.1}, "position": [0.5, 0, 0]},
+      {"name": "bead", "mass": 0.5, "formulation": "R3", "position": [1, 0, -1]}],
+    "joints": [{"type": "spherical", "bodies": ["ground", "rod"], "point": [0, 0, 0]},
+               {"type": "distance", "bodies": ["rod", "bead"], "points": [[0.5, 0, 0], [0, 0, 0]]}],
+    "effects": [{"type": "uniform_gravity", "acceleration": [0, 0, -9.81]}]})");
+    return run_problem(R"({"scene": ")" + (folder_.path() / "beads.json").string() + R"("})", integrators,
+                       rest);
+  }
+  static constexpr std::uint64_t bodies = 2, rotating = 1;
+
+ private:
+  TemporaryFolder folder_;
+};
+
+const std::string in_both_precisions =
+    R"("step_sizes": [1e-3], "t_end": 0.1, "start": "reference", "precision": ["double", "extended"])";
+
+// As those of the heavy top above, body by body; the reference beside the run is no part of it.
+TEST_F(SceneAuditTest, CountsBodyByBodyAndNoCommutatorOfAPointMass) {
+  const auto records = run_beads(R"([{"name": "bliedf2nd", "k": [3, 4]}])", in_both_precisions);
+  ASSERT_EQ(records.size(), 4u);
+  for (const Json& record : records) {
+    EXPECT_EQ(record.at("outcome"), "ok");
+    EXPECT_EQ(count(record, "residuals"), count(record, "newton_iterations")) << record;
+    EXPECT_EQ(count(record, "commutators"), rotating * own_steps(record)) << record;
+    EXPECT_EQ(count(record, "log"), bodies * (record.at("options").at("k").get<std::uint64_t>() - 1));
+    EXPECT_EQ(count(record, "exp"), bodies * evaluations(record)) << record;
+    EXPECT_EQ(count(record, "tangent_inverse"), 0u);
+  }
+}
+
+// The linear part of a run in extended precision is in double, and counts as it does in a run in double.
+TEST_F(SceneAuditTest, TangentOperatorsOfNewtonMatricesCountInEveryPrecision) {
+  for (const Json& record : run_beads(R"([{"name": "bliedf2nd", "k": [2, 3]}])", in_both_precisions)) {
+    EXPECT_GT(count(record, "jacobians"), 0u);
+    EXPECT_EQ(count(record, "tangent"), bodies * count(record, "jacobians")) << record;
+  }
+  for (const Json& record :
+       run_beads(R"([{"name": "faltinsen_bdf", "k": 3, "variant": ["exact", "bch"]}])", in_both_precisions)) {
+    const bool exact = record.at("options").at("variant") == "exact";
+    const std::uint64_t matrices = count(record, "jacobians");
+    // T once in each evaluation, and in each matrix.
+    EXPECT_EQ(count(record, "tangent"), bodies * (matrices + (exact ? evaluations(record) : 0))) << record;
+    // In a matrix ad(s), and one for each term of the series of T: two, for increments are small, of which "bch" has the first.
+    EXPECT_EQ(count(record, "commutators"),
+              rotating * (exact ? 3 * matrices : own_steps(record) + evaluations(record) + 2 * matrices))
+        << record;
+  }
+}
+
 // Of n unknowns: a dense factorization divides n (n + 1) / 2 times, KLU counts n of them.
 TEST_F(AuditTest, ASceneSaysWhatFactorizedItsNewtonMatrices) {
   const std::string crank = R"({"scene": ")" LIEBENCH_SOURCE_DIR R"(/problems/scenes/slider_crank.json"})";
