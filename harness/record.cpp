@@ -133,6 +133,7 @@ Json make_record(const RunSpec& run, const RunResult& result, const PreparedProb
   }
   if (result.agreement_time) j["agreement_time"] = run.t_0 + *result.agreement_time;
   if (result.drift) j["drift"] = drift(*result.drift);
+  if (result.solver) j["solver"] = name(*result.solver);
   j["cost"] = cost_to_json(result.cost);
   j["provenance"] = provenance;
   return j;

@@ -11,6 +11,7 @@
 #include "groups/counted.h"
 #include "groups/extended.h"
 #include "integrators/audit.h"
+#include "integrators/linear_solver.h"
 #include "integrators/option.h"
 #include "integrators/outcome.h"
 #include "problems/audited_system.h"
@@ -84,6 +85,7 @@ struct RunResult {
   std::optional<Drift> drift;
   // Of a chaotic scene, in place of the errors: the time up to which the run and the reference agree, s.
   std::optional<double> agreement_time;
+  std::optional<LinearSolver> solver;  // of Newton's equations, where it depends on their number
   RunCost cost;
   std::vector<double> end_state;  // q, v, lambda where the run ended, rounded to double
 };

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "harness/errors.h"
+#include "harness/implied_rows.h"
 #include "integrators/consistent_projection.h"
 #include "integrators/sparse_step_matrix.h"
 #include "problems/scene_model.h"
@@ -20,17 +21,6 @@ namespace liebench {
 namespace {
 
 using System = SceneSystem<double>;
-
-// One model row after the other, the name of the joint that makes it.
-std::vector<std::string> joint_of_rows(const SceneDescription& scene) {
-  std::vector<std::string> names;
-  for (const JointDescription& joint : scene.joints) {
-    SceneDescription alone = scene;
-    alone.joints = {joint};
-    names.insert(names.end(), std::size_t(make_scene_model<double>(alone)->rows), joint.name);
-  }
-  return names;
-}
 
 // A pose as Ceres moves it: position and unit quaternion (w, x, y, z).
 struct Pose {
@@ -155,6 +145,9 @@ class CeresAssembly {
   ceres::Problem problem_;
 };
 
+// Of a scene that is assembled, m or rad.
+constexpr double largest_gap_allowed = 1e-8;
+
 struct Gap {
   double size = 0.0;
   std::size_t row = 0;
@@ -169,66 +162,76 @@ Gap largest_gap(const System& system, const Eigen::VectorXd& q) {
   return gap;
 }
 
-// The constraint gradient as a dense matrix, one column a row of it.
-struct GradientColumns {
-  const System& system;
-  Eigen::MatrixXd columns;
-  explicit GradientColumns(const System& s)
-      : system(s), columns(Eigen::MatrixXd::Zero(velocity_size(s), s.multipliers())) {}
-  template <class Block>
-  void gradient(Eigen::Index row, int body, const Block& B) {
-    columns.col(row).segment(system.model().bodies[std::size_t(body)].v, B.cols()) += B.transpose();
-  }
-};
-
-// Which rows the others imply: rows in their order, each against those before it (modified Gram-Schmidt, twice). Not by pivots:
-// of two joints that say the same, the one that the author wrote later is redundant.
-std::vector<bool> implied_rows(const System& system, const Eigen::VectorXd& q) {
-  GradientColumns gradient(system);
-  system.gradient(q, gradient);
-  const Eigen::Index rows = gradient.columns.cols();
-  std::vector<bool> implied(std::size_t(rows), false);
-  std::vector<Eigen::VectorXd> basis;
-  for (Eigen::Index r = 0; r < rows; ++r) {
-    Eigen::VectorXd rest = gradient.columns.col(r);
-    const double size = rest.norm();
-    for (int pass = 0; pass < 2; ++pass)
-      for (const Eigen::VectorXd& direction : basis) rest -= direction.dot(rest) * direction;
-    if (rest.norm() > 1e-9 * size)
-      basis.push_back(rest.normalized());
-    else
-      implied[std::size_t(r)] = true;
-  }
-  return implied;
+// Two rows that are the same where all joints fit differ by as much as these gape, for lengths of about 1 m; a row that is a sum of
+// others, with coefficients of sum 10, by ten times that. All rows of the scenes that come with it leave less than 1e-14 or more
+// than 0.01 (tests/harness/implied_rows_test.cpp).
+double rank_tolerance(double gap) {
+  return 10.0 * std::max(gap, AssembledScene::fits);
 }
 
-// Gram-Schmidt is cubic in the number of rows; a chain of more has no loop that a person drew by hand.
-constexpr Eigen::Index most_rows_for_rank = 600;
+// The largest gap of all joints beside q, where only the independent ones hold: round-off where these imply the others. Where
+// a mechanism begins in a singular place, more constraints look implied than are, and their joints gape here, in proportion to the
+// square of the way. None where nothing can move.
+Gap gap_beside(const System& system, const System& independent, const Eigen::VectorXd& q) {
+  constexpr double way = 1e-2;  // m or rad, of what moves most
+  NoAudit audit;
+  // Of all motions that the joints allow a mixture, for the free motion of one body may be the right one by accident.
+  Eigen::VectorXd mixture(velocity_size(independent));
+  for (Eigen::Index i = 0; i < mixture.size(); ++i) mixture(i) = std::sin(double(i + 1));
+  const auto motion = solve_saddle_point(independent, q, independent.momentum(q, mixture),
+                                         zero_multipliers(independent), audit);
+  if (!motion) return {};
+  const double most = motion->x.lpNorm<Eigen::Infinity>();
+  // The mixture has size 1; of what is not free round-off is left.
+  if (!(most > 1e-6)) return {};
+  Eigen::VectorXd moved = independent.group().compose(q, independent.group().exp(motion->x * (way / most)));
+  Eigen::VectorXd v = zero_velocity(independent);
+  if (project_on_constraints(independent, 0.0, moved, v, audit).outcome != Outcome::ok) return {};
+  if (independent.multipliers() > 0 &&
+      !(independent.constraint(0.0, moved).lpNorm<Eigen::Infinity>() <= largest_gap_allowed))
+    return {};
+  return largest_gap(system, moved);
+}
 
 }  // namespace
+
+std::vector<RowOfJoint> rows_of_joints(const SceneDescription& scene) {
+  std::vector<RowOfJoint> result;
+  for (const JointDescription& joint : scene.joints) {
+    // Its two bodies alone say how many rows it has.
+    SceneDescription alone;
+    JointDescription same = joint;
+    for (int* const body : {&same.a, &same.b})
+      if (*body >= 0) {
+        alone.bodies.push_back(scene.bodies[std::size_t(*body)]);
+        *body = int(alone.bodies.size()) - 1;
+      }
+    alone.joints = {same};
+    const auto rows = make_scene_model<double>(alone)->rows;
+    for (Eigen::Index i = 0; i < rows; ++i) result.push_back({joint.name, int(i)});
+  }
+  return result;
+}
 
 AssembledScene assemble(const SceneDescription& given, const std::string& place) {
   AssembledScene result;
   result.scene = given;
   auto model = make_scene_model<double>(given);
-  const std::vector<std::string> names = joint_of_rows(given);
+  const std::vector<RowOfJoint> rows = rows_of_joints(given);
   const Gap before = largest_gap(System(model), model->q);
   result.gap_before = result.gap_after = before.size;
-  if (!names.empty()) result.gap_joint = names[before.row];
+  if (!rows.empty()) result.gap_joint = rows[before.row].joint;
   if (result.moved()) {
     result.scene = CeresAssembly(given, *model).solve();
     model = make_scene_model<double>(result.scene);
   }
   const System system(model);
-  if (system.multipliers() > 0 && system.multipliers() <= most_rows_for_rank) {
-    std::vector<bool> implied = implied_rows(system, model->q);
-    if (std::find(implied.begin(), implied.end(), true) != implied.end()) {
-      for (std::size_t r = 0; r < implied.size(); ++r)
-        if (implied[r] && (result.redundant_joints.empty() || result.redundant_joints.back() != names[r]))
-          result.redundant_joints.push_back(names[r]);
-      result.implied = std::move(implied);
-    }
-  }
+  std::vector<bool> implied =
+      implied_rows(system, model->q, rank_tolerance(largest_gap(system, model->q).size));
+  for (std::size_t r = 0; r < implied.size(); ++r)
+    if (implied[r] && (result.redundant_joints.empty() || result.redundant_joints.back() != rows[r].joint))
+      result.redundant_joints.push_back(rows[r].joint);
+  if (!result.redundant_joints.empty()) result.implied = std::move(implied);
   // To round-off, by Newton's method in the norm of the mass matrix, with the independent constraints; the others must follow.
   const System independent(make_scene_model<double>(result.scene, result.implied));
   Eigen::VectorXd q = independent.initial_configuration(), v = independent.initial_velocity();
@@ -236,11 +239,18 @@ AssembledScene assemble(const SceneDescription& given, const std::string& place)
   const StepResult projected = project_on_constraints(independent, 0.0, q, v, audit);
   const Gap after = largest_gap(system, q);
   result.gap_after = after.size;
-  if (projected.outcome != Outcome::ok || !(after.size < 1e-8))
+  if (projected.outcome != Outcome::ok || !(after.size < largest_gap_allowed))
     throw InputError(place,
                      fmt::format("the scene cannot be assembled: joint \"{}\" is left with a gap of {:.3g}; "
                                  "largest gap of the poses as given: {:.3g}, joint \"{}\"",
-                                 names[after.row], after.size, before.size, result.gap_joint));
+                                 rows[after.row].joint, after.size, before.size, result.gap_joint));
+  if (!result.implied.empty())
+    if (const Gap beside = gap_beside(system, independent, q); !(beside.size < largest_gap_allowed))
+      throw InputError(
+          place,
+          fmt::format("the mechanism begins in a singular place: a constraint of joint \"{}\" is implied "
+                      "by others there, but not beside it (gap of {:.3g}); choose other initial poses",
+                      rows[beside.row].joint, beside.size));
   return result;
 }
 

@@ -23,9 +23,18 @@ struct AssembledScene {
   static constexpr double fits = 1e-10;
 };
 
+// The row-th row of constraints of a joint.
+struct RowOfJoint {
+  std::string joint;
+  int row = 0;
+};
+
+// All rows of the scene, in the order in which its joints make them.
+std::vector<RowOfJoint> rows_of_joints(const SceneDescription& scene);
+
 // Moves the bodies as little as possible (poses on their groups, by Ceres) until all joints close, and finds the constraints
 // that others imply (rank of the constraint gradient there). Throws InputError that names the joint with the largest
-// gap where they cannot be closed.
+// gap where they cannot be closed, and one that is redundant at the initial poses only.
 AssembledScene assemble(const SceneDescription& scene, const std::string& place);
 
 }  // namespace liebench

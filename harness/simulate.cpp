@@ -79,15 +79,10 @@ std::optional<RunFailure> simulate(const AssembledScene& scene, const Simulation
 
 std::vector<std::string> multiplier_names(const AssembledScene& scene) {
   std::vector<std::string> names;
-  std::size_t row = 0;
-  for (const JointDescription& joint : scene.scene.joints) {
-    SceneDescription alone = scene.scene;
-    alone.joints = {joint};
-    const auto rows = std::size_t(make_scene_model<double>(alone)->rows);
-    for (std::size_t i = 0; i < rows; ++i, ++row)
-      if (row >= scene.implied.size() || !scene.implied[row])
-        names.push_back(fmt::format("{}[{}]", joint.name, i));
-  }
+  const std::vector<RowOfJoint> rows = rows_of_joints(scene.scene);
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    if (r >= scene.implied.size() || !scene.implied[r])
+      names.push_back(fmt::format("{}[{}]", rows[r].joint, rows[r].row));
   return names;
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <type_traits>
 #include <variant>
 
+#include "groups/audited_group.h"
 #include "integrators/run_time_system.h"
 #include "integrators/sparse_step_matrix.h"
 #include "problems/audited_system.h"
@@ -24,6 +27,7 @@ class ErasedBlockMatrix final : public AnyStepMatrix<typename S::Scalar> {
   explicit ErasedBlockMatrix(const S& system) : system_(system), matrix_(system) {}
   Outcome factorize(const Point& p, const Derivatives& derivatives) override {
     ++SystemCalls::counts().stiffnesses;
+    GroupCalls::counts().tangent += system_.model().bodies.size();
     const Multipliers<S> lambda = p.scaled_lambda / p.h;
     return std::visit(
         [&](const auto& d) {
@@ -42,8 +46,9 @@ class ErasedBlockMatrix final : public AnyStepMatrix<typename S::Scalar> {
   SparseStepMatrix<S, form> matrix_;
 };
 
-// A system of many bodies as a RunTimeSystem; it counts its evaluations. `linear` is the same system in the scalar of the linear
-// algebra.
+// A system of many bodies as a RunTimeSystem; it counts its evaluations and, body by body, what AuditedGroup counts: here and not in
+// the group, for that of the linear algebra of an audit is in double, as is the one that is timed. `linear` is the same system in
+// the scalar of the linear algebra.
 template <BlockSystem S>
 class ErasedBlockSystem final : public AnySystem<typename S::Scalar> {
   using T = typename S::Scalar;
@@ -65,16 +70,28 @@ class ErasedBlockSystem final : public AnySystem<typename S::Scalar> {
   Vector identity() const override { return system_.group().identity(); }
   Vector compose(const Vector& p, const Vector& q) const override { return system_.group().compose(p, q); }
   Vector inverse(const Vector& q) const override { return system_.group().inverse(q); }
-  Vector exp(const Vector& v) const override { return system_.group().exp(v); }
-  Vector log(const Vector& q) const override { return system_.group().log(q); }
+  Vector exp(const Vector& v) const override {
+    GroupCalls::counts().exp += bodies();
+    return system_.group().exp(v);
+  }
+  Vector log(const Vector& q) const override {
+    GroupCalls::counts().log += bodies();
+    return system_.group().log(q);
+  }
   Vector commutator(const Vector& v, const Vector& w) const override {
+    GroupCalls::counts().commutators += rotating_bodies();
     return system_.group().commutator(v, w);
   }
-  BlockDiagonal<T> ad(const Vector& v) const override { return system_.group().ad(v); }
+  BlockDiagonal<T> ad(const Vector& v) const override {
+    GroupCalls::counts().commutators += rotating_bodies();
+    return system_.group().ad(v);
+  }
   BlockDiagonal<T> tangent_inverse(const Vector& v) const override {
+    GroupCalls::counts().tangent_inverse += bodies();
     return system_.group().tangent_inverse(v);
   }
   Vector tangent_times(const Vector& v, const Vector& w) const override {
+    GroupCalls::counts().tangent += bodies();
     return system_.group().tangent_times(v, w);
   }
   T rotation_angle(const Vector& v) const override { return system_.group().rotation_angle(v); }
@@ -129,6 +146,12 @@ class ErasedBlockSystem final : public AnySystem<typename S::Scalar> {
  private:
   template <BlockSystem Other>
   friend class ErasedBlockSystem;
+  std::uint64_t bodies() const { return system_.model().bodies.size(); }
+  // Every commutator of a point mass vanishes, and none is computed.
+  std::uint64_t rotating_bodies() const {
+    const auto& all = system_.model().bodies;
+    return std::uint64_t(std::count_if(all.begin(), all.end(), [](const auto& b) { return b.rotates(); }));
+  }
   S system_;
   std::unique_ptr<ErasedBlockSystem<LinearSystem>> linear_;
 };

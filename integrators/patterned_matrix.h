@@ -16,6 +16,7 @@
 #include "groups/counted.h"
 #include "groups/flattened.h"
 #include "groups/scalar.h"
+#include "integrators/linear_solver.h"
 
 namespace liebench {
 
@@ -27,8 +28,13 @@ template <class T>
 class PatternedMatrix {
  public:
   static constexpr Eigen::Index largest_dense = 48;
+  // Of a matrix with so many rows.
+  static constexpr LinearSolver solver_of(Eigen::Index size) {
+    return size <= largest_dense ? LinearSolver::dense_lu : LinearSolver::klu;
+  }
 
-  explicit PatternedMatrix(Eigen::Index size) : size_(size), dense_(size <= largest_dense) {
+  explicit PatternedMatrix(Eigen::Index size)
+      : size_(size), dense_(solver_of(size) == LinearSolver::dense_lu) {
     if (dense_) matrix_.setConstant(size, size, T(0.0));
   }
   PatternedMatrix(const PatternedMatrix& other)

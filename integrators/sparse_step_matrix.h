@@ -9,6 +9,8 @@
 #include "groups/block_diagonal.h"
 #include "integrators/audit.h"
 #include "integrators/consistent_projection.h"
+#include "integrators/form.h"
+#include "integrators/linear_solver.h"
 #include "integrators/outcome.h"
 #include "integrators/patterned_matrix.h"
 #include "integrators/step_equation.h"
@@ -46,8 +48,10 @@ class SparseStepMatrix {
   explicit SparseStepMatrix(const S& system)
       : m_(velocity_size(system)),
         l_(multiplier_size(system)),
-        matrix_(stabilized && l_ > 0 ? 2 * (m_ + l_) : m_ + l_),
+        matrix_(unknowns(system)),
         extended_(matrix_.size()) {}
+
+  static LinearSolver solver(const S& system) { return PatternedMatrix<T>::solver_of(unknowns(system)); }
 
   template <class Closure, class Point, class Unknowns>
   Outcome factorize(const S& system, const T& t, const T& h, const Configuration<S>& q_n,
@@ -108,6 +112,10 @@ class SparseStepMatrix {
   const T& mass_scale() const { return mass_scale_; }
 
  private:
+  static Eigen::Index unknowns(const S& system) {
+    const Eigen::Index n = velocity_size(system) + multiplier_size(system);
+    return stabilized && multiplier_size(system) > 0 ? 2 * n : n;
+  }
   using Matrix3 = Eigen::Matrix<T, 3, 3>;
   using Bodies = std::remove_cvref_t<decltype(std::declval<S>().model().bodies)>;
 
@@ -214,6 +222,12 @@ template <BlockSystem S, Form form>
 struct StepMatrixOf<S, form> {
   using type = SparseStepMatrix<S, form>;
 };
+
+// What factorizes the Newton matrices of such a system, in every scalar.
+template <BlockSystem S>
+LinearSolver newton_solver(const S& system, Form form) {
+  return with_form<S>(form, [&]<Form f>(FormConstant<f>) { return SparseStepMatrix<S, f>::solver(system); });
+}
 
 // The saddle point matrix [M B^T; B 0] of such a system at q, in the scalar of the linear algebra.
 template <BlockSystem S>

@@ -23,6 +23,22 @@ inline SystemCalls operator-(const SystemCalls& a, const SystemCalls& b) {
   return {a.forces - b.forces, a.stiffnesses - b.stiffnesses};
 }
 
+// What is evaluated on this thread during its life is not counted: of a reference beside an audit.
+class Uncounted {
+ public:
+  Uncounted() = default;
+  Uncounted(const Uncounted&) = delete;
+  Uncounted& operator=(const Uncounted&) = delete;
+  ~Uncounted() {
+    SystemCalls::counts() = system_;
+    GroupCalls::counts() = group_;
+  }
+
+ private:
+  SystemCalls system_ = SystemCalls::counts();
+  GroupCalls group_ = GroupCalls::counts();
+};
+
 // The system S on a group that counts its calls; it counts its own evaluations. For audit runs.
 template <MechanicalSystem S>
 class Audited : public S {

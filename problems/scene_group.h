@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "groups/audited_group.h"
 #include "groups/block_diagonal.h"
 #include "groups/flattened.h"
 #include "problems/scene_bodies.h"
@@ -13,7 +12,7 @@
 namespace liebench {
 
 // The product of the groups of all bodies of a scene; elements by their stacked representations. Valid as long as the bodies
-// are. Counts what AuditedGroup counts, once for each body: a scene is audited body by body.
+// are.
 template <class T, int most_bodies = Eigen::Dynamic>
 class SceneGroup {
  public:
@@ -63,21 +62,18 @@ class SceneGroup {
   }
   Element exp(const Tangent& v) const {
     return inlined<T>([&]() -> Element {
-      count(&GroupCalls::exp);
       Element result(coordinates());
       each([&]<class G>(G, const Body<T>& b) { put<G>(result, b, G::exp(part<G>(v, b))); });
       return result;
     });
   }
   Tangent log(const Element& q) const {
-    count(&GroupCalls::log);
     Tangent result(size());
     each([&]<class G>(G, const Body<T>& b) { part<G>(result, b) = G::log(at<G>(q, b)); });
     return result;
   }
   Tangent commutator(const Tangent& v, const Tangent& w) const {
     return inlined<T>([&]() -> Tangent {
-      count(&GroupCalls::commutators);
       Tangent result(size());
       each([&]<class G>(G, const Body<T>& b) {
         part<G>(result, b) = G::commutator(part<G>(v, b), part<G>(w, b));
@@ -86,7 +82,6 @@ class SceneGroup {
     });
   }
   Tangent tangent_times(const Tangent& v, const Tangent& w) const {
-    count(&GroupCalls::tangent);
     Tangent result(size());
     each([&]<class G>(G, const Body<T>& b) {
       part<G>(result, b) = G::tangent_times(part<G>(v, b), part<G>(w, b));
@@ -94,15 +89,12 @@ class SceneGroup {
     return result;
   }
   TangentMatrix ad(const Tangent& v) const {
-    count(&GroupCalls::commutators);
     return blocks([&]<class G>(G, const Body<T>& b) { return G::ad(part<G>(v, b)); });
   }
   TangentMatrix tangent_inverse(const Tangent& v) const {
-    count(&GroupCalls::tangent_inverse);
     return blocks([&]<class G>(G, const Body<T>& b) { return G::tangent_inverse(part<G>(v, b)); });
   }
   TangentMatrix tangent(const Tangent& v) const {
-    count(&GroupCalls::tangent);
     return blocks([&]<class G>(G, const Body<T>& b) { return G::tangent(part<G>(v, b)); });
   }
   T rotation_angle(const Tangent& v) const {
@@ -144,11 +136,6 @@ class SceneGroup {
     result.reserve(bodies_->size());
     each([&]<class G>(G group, const Body<T>& b) { result.push_back(make(group, b)); });
     return TangentMatrix(std::move(result));
-  }
-  void count(std::uint64_t GroupCalls::*calls) const {
-    if constexpr (!std::is_same_v<T, double>) {
-      GroupCalls::counts().*calls += bodies_->size();
-    }
   }
   template <class G>
   static typename G::Element at(const Element& q, const Body<T>& b) {

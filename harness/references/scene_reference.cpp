@@ -8,6 +8,7 @@
 
 #include "harness/instances/run_time_scenes.h"
 #include "integrators/self_start.h"
+#include "problems/audited_system.h"
 #include "problems/scene_model.h"
 
 namespace liebench {
@@ -86,6 +87,7 @@ double SceneReference::distance(const Node& a, const Node& b) const {
 }
 
 SceneReference::Point SceneReference::at(const Extended& t) const {
+  const Uncounted uncounted;
   const double place = to_double(t / spacing_);
   const auto nearest = std::size_t(std::clamp(std::lround(place), 0L, long(nodes_.size()) - 1));
   const std::size_t first =

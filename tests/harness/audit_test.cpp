@@ -17,10 +17,14 @@ namespace {
 class AuditTest : public testing::Test {
  protected:
   std::vector<Json> run(const std::string& integrators, const std::string& rest) const {
-    const Study study = read_study(parse_json(
-        R"({"name": "audit", "problems": [{"name": "heavy_top", "formulation": ["SO3", "R3xSO3", "SE3"]}], "integrators": )" +
-            integrators + ", " + rest + "}",
-        "audit"));
+    return run_problem(R"({"name": "heavy_top", "formulation": ["SO3", "R3xSO3", "SE3"]})", integrators,
+                       rest);
+  }
+  std::vector<Json> run_problem(const std::string& problem, const std::string& integrators,
+                                const std::string& rest) const {
+    const Study study = read_study(parse_json(R"({"name": "audit", "problems": [)" + problem +
+                                                  R"(], "integrators": )" + integrators + ", " + rest + "}",
+                                              "audit"));
     std::vector<Json> records(study.runs.size());
     Progress progress("", 1.0);
     execute(study.runs, 2, ReferenceCache(cache_.path()), progress,
@@ -134,6 +138,84 @@ TEST_F(AuditTest, AFailedRunHasItsCountsUpToTheFailure) {
     EXPECT_GT(count(record, "flops"), 0u);
   }
   EXPECT_GT(failed, 0);
+}
+
+// --- scenes ------------------------------------------------------------------------------------------------
+
+class SceneAuditTest : public AuditTest {
+ protected:
+  // A rod on a joint, and a bead on a string from its end: two bodies, of which one rotates.
+  std::vector<Json> run_beads(const std::string& integrators, const std::string& rest) {
+    folder_.write("beads.json",
+                  R"({"name": "beads", "bodies": [
+      {"name": "rod", "mass": 1, "shape": {"type": "rod", "length": 1, "width": 0.1}, "position": [0.5, 0, 0]},
+      {"name": "bead", "mass": 0.5, "formulation": "R3", "position": [1, 0, -1]}],
+    "joints": [{"type": "spherical", "bodies": ["ground", "rod"], "point": [0, 0, 0]},
+               {"type": "distance", "bodies": ["rod", "bead"], "points": [[0.5, 0, 0], [0, 0, 0]]}],
+    "effects": [{"type": "uniform_gravity", "acceleration": [0, 0, -9.81]}]})");
+    return run_problem(R"({"scene": ")" + (folder_.path() / "beads.json").string() + R"("})", integrators,
+                       rest);
+  }
+  static constexpr std::uint64_t bodies = 2, rotating = 1;
+
+ private:
+  TemporaryFolder folder_;
+};
+
+const std::string in_both_precisions =
+    R"("step_sizes": [1e-3], "t_end": 0.1, "start": "reference", "precision": ["double", "extended"])";
+
+// As those of the heavy top above, body by body; the reference beside the run is no part of it.
+TEST_F(SceneAuditTest, CountsBodyByBodyAndNoCommutatorOfAPointMass) {
+  const auto records = run_beads(R"([{"name": "bliedf2nd", "k": [3, 4]}])", in_both_precisions);
+  ASSERT_EQ(records.size(), 4u);
+  for (const Json& record : records) {
+    EXPECT_EQ(record.at("outcome"), "ok");
+    EXPECT_EQ(count(record, "residuals"), count(record, "newton_iterations")) << record;
+    EXPECT_EQ(count(record, "commutators"), rotating * own_steps(record)) << record;
+    EXPECT_EQ(count(record, "log"), bodies * (record.at("options").at("k").get<std::uint64_t>() - 1));
+    EXPECT_EQ(count(record, "exp"), bodies * evaluations(record)) << record;
+    EXPECT_EQ(count(record, "tangent_inverse"), 0u);
+  }
+}
+
+// The linear part of a run in extended precision is in double, and counts as it does in a run in double.
+TEST_F(SceneAuditTest, TangentOperatorsOfNewtonMatricesCountInEveryPrecision) {
+  for (const Json& record : run_beads(R"([{"name": "bliedf2nd", "k": [2, 3]}])", in_both_precisions)) {
+    EXPECT_GT(count(record, "jacobians"), 0u);
+    EXPECT_EQ(count(record, "tangent"), bodies * count(record, "jacobians")) << record;
+  }
+  for (const Json& record :
+       run_beads(R"([{"name": "faltinsen_bdf", "k": 3, "variant": ["exact", "bch"]}])", in_both_precisions)) {
+    const bool exact = record.at("options").at("variant") == "exact";
+    const std::uint64_t matrices = count(record, "jacobians");
+    // T once in each evaluation, and in each matrix.
+    EXPECT_EQ(count(record, "tangent"), bodies * (matrices + (exact ? evaluations(record) : 0))) << record;
+    // In a matrix ad(s), and one for each term of the series of T: two, for increments are small, of which "bch" has the first.
+    EXPECT_EQ(count(record, "commutators"),
+              rotating * (exact ? 3 * matrices : own_steps(record) + evaluations(record) + 2 * matrices))
+        << record;
+  }
+}
+
+// Of n unknowns: a dense factorization divides n (n + 1) / 2 times, KLU counts n of them.
+TEST_F(AuditTest, ASceneSaysWhatFactorizedItsNewtonMatrices) {
+  const std::string crank = R"({"scene": ")" LIEBENCH_SOURCE_DIR R"(/problems/scenes/slider_crank.json"})";
+  // 18 velocities and 17 constraints; twice as many unknowns in the stabilized form.
+  const auto records =
+      run_problem(crank, R"([{"name": "bliedf2nd", "form": ["index3", "stabilized_index2"]}])",
+                  R"("step_sizes": [1e-3], "t_end": 0.05, "precision": ["double", "extended"])");
+  ASSERT_EQ(records.size(), 4u);
+  for (const Json& record : records) {
+    const bool large = record.at("options").at("form") == "stabilized_index2";
+    EXPECT_EQ(record.at("solver"), large ? "klu" : "dense_lu") << record;
+    if (record.at("precision") == "extended") continue;
+    const auto divisions = record.at("cost").at("flops_by_kind").at("divide").get<std::uint64_t>();
+    const std::uint64_t n = large ? 70 : 35;
+    EXPECT_EQ(divisions >= count(record, "factorizations") * n * (n + 1) / 2, !large) << record;
+  }
+  for (const Json& record : run(R"([{"name": "bliedf2nd"}])", from_reference))
+    EXPECT_FALSE(record.contains("solver")) << "a matrix of fixed size";
 }
 
 }  // namespace

@@ -32,6 +32,12 @@ Json failed_record() {
   return sample_record({}, sample_failure());
 }
 
+// Of a scene.
+Json scene_record() {
+  RunResult result = sample_result(1e-4, 2e-4, 3e-4);
+  result.solver = LinearSolver::klu;
+  return sample_record({}, result);
+}
 Json local_record() {
   return sample_record({.local = true}, sample_result(1e-4, 2e-4, 3e-4));
 }
@@ -57,6 +63,7 @@ void walk(const Json& value, const std::string& pointer, const Visit& visit) {
 TEST(Record, OfEveryKindOfRunIsValidByTheSchema) {
   EXPECT_EQ(schema().violations(good_record().dump()), "");
   EXPECT_EQ(schema().violations(failed_record().dump()), "");
+  EXPECT_EQ(schema().violations(scene_record().dump()), "");
   EXPECT_EQ(
       schema().violations(sample_record({.formulation = "SO3"}, sample_result(1e-4, 2e-4, 0, false)).dump()),
       "");
@@ -99,8 +106,9 @@ TEST(Record, TheSchemaMissesEveryKeyThatIsTakenAway) {
                                        "/drift/position_constraint",
                                        "/drift/velocity_constraint",
                                        "/drift/angular_momentum",
-                                       "/failure/residual"};
-  for (const Json& record : {good_record(), failed_record(), local_record()})
+                                       "/failure/residual",
+                                       "/solver"};
+  for (const Json& record : {good_record(), failed_record(), local_record(), scene_record()})
     walk(record, "", [&](const std::string& pointer, const Json&) {
       if (pointer.empty() || pointer.starts_with("/parameters/") || pointer.starts_with("/options/") ||
           pointer.starts_with("/provenance/libraries/"))
@@ -114,7 +122,7 @@ TEST(Record, TheSchemaMissesEveryKeyThatIsTakenAway) {
 }
 
 TEST(Record, TheSchemaForbidsNullInPlaceOfAnything) {
-  for (const Json& record : {good_record(), failed_record(), local_record()})
+  for (const Json& record : {good_record(), failed_record(), local_record(), scene_record()})
     walk(record, "", [&](const std::string& pointer, const Json&) {
       if (pointer.starts_with("/parameters/") || pointer.starts_with("/options/")) return;
       Json changed = record;
@@ -139,6 +147,7 @@ TEST(Record, TheSchemaForbidsContradictions) {
                                                          {"/steps", 1.5},
                                                          {"/outcome", "fine"},
                                                          {"/precision", "half"},
+                                                         {"/solver", "qr"},
                                                          {"/errors/q/end_relative", -1.0},
                                                          {"/errors/q/end_relative", "1e-4"},
                                                          {"/cost/solves", -1},

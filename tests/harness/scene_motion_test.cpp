@@ -1,48 +1,20 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "harness/scene_reader.h"
-#include "harness/simulate.h"
 #include "integrators/bliedf2nd.h"
 #include "problems/scene_examples.h"
+#include "tests/harness/scene_runs.h"
 
 // Where the motions of scenes end, against values that others published or that are exact; and what the others keep.
 
 namespace liebench {
 namespace {
-
-AssembledScene scene_of(const std::string& name) {
-  const auto file = std::filesystem::path(LIEBENCH_SOURCE_DIR) / "problems" / "scenes" / (name + ".json");
-  return assemble(read_scene_file(file), name);
-}
-
-std::vector<Sample> motion(const AssembledScene& scene, const MethodOptions& method, double h, double t_end,
-                           std::uint64_t every = 1) {
-  std::vector<Sample> samples;
-  const auto failure = simulate(
-      scene,
-      {.method = method, .step_size = h, .steps = std::uint64_t(std::llround(t_end / h)), .every = every},
-      [&](const Sample& sample) { samples.push_back(sample); });
-  EXPECT_FALSE(failure.has_value()) << (failure ? failure->message : "");
-  return samples;
-}
-Sample end(const AssembledScene& scene, const MethodOptions& method, double h, double t_end) {
-  return motion(scene, method, h, t_end, std::uint64_t(std::llround(t_end / h))).back();
-}
-
-Eigen::Vector3d vector_of(const std::array<double, 3>& a) {
-  return {a[0], a[1], a[2]};
-}
-Eigen::Matrix3d rotation_of(const BodySample& body) {
-  const auto& p = body.orientation;
-  return Eigen::Quaterniond(p[0], p[1], p[2], p[3]).toRotationMatrix();
-}
 
 // An error that falls as an order of at least `order` lets it.
 void expect_order(double coarse, double fine, double order) {
@@ -52,9 +24,9 @@ void expect_order(double coarse, double fine, double order) {
 // The fast top of the paper, e2 . R Omega at 2 s: -106.16380414306643 and -106.16380414311477 of Exudyn's two integrators, which
 // differ in the twelfth digit; the closed form has ...312445.
 TEST(SceneMotion, TheHeavyTopTurnsAsPublished) {
-  const AssembledScene scene = scene_of("heavy_top");
+  const AssembledScene scene = assembled_scene("heavy_top");
   const auto error = [&](double h) {
-    const BodySample top = end(scene, BLieDF2nd::Options{.k = 4}, h, 2.0).bodies[0];
+    const BodySample top = end_of_motion(scene, BLieDF2nd::Options{.k = 4}, h, 2.0).bodies[0];
     return std::abs((rotation_of(top) * vector_of(top.angular_velocity))(1) + 106.16380414312445);
   };
   const double coarse = error(0x1p-13), fine = error(0x1p-14);  // h Omega = 0.018 and 0.009
@@ -65,9 +37,9 @@ TEST(SceneMotion, TheHeavyTopTurnsAsPublished) {
 // A pendulum on the branch where the bars stay level, from upright over more than five turns: flat ten times. phi = 31.75...
 // by its equation in 60 digits.
 TEST(SceneMotion, TheFourBarIsItsPendulumThroughEveryFlatPlace) {
-  const AssembledScene scene = scene_of("four_bar");
+  const AssembledScene scene = assembled_scene("four_bar");
   const auto error = [&](const MethodOptions& method, double h) {
-    const BodySample link = end(scene, method, h, 10.0).bodies[0];
+    const BodySample link = end_of_motion(scene, method, h, 10.0).bodies[0];
     // The upper end B_0 is twice as far from the ground as the centre of mass.
     const double x = 2.0 * link.position[0] - 0.32845811154081537865,
                  y = 2.0 * link.position[1] - 0.94451853817860096216;
@@ -83,14 +55,14 @@ TEST(SceneMotion, TheFourBarIsItsPendulumThroughEveryFlatPlace) {
 
 // Mazzia & Magherini, Test set for IVP solvers: beta', beta' + Theta', gamma', delta' and epsilon' at 0.03 s.
 TEST(SceneMotion, AndrewsSqueezerEndsAsPublished) {
-  const AssembledScene scene = scene_of("andrews_squeezer");
+  const AssembledScene scene = assembled_scene("andrews_squeezer");
   const std::vector<std::pair<std::size_t, double>> published{{0, 1139.920302151208},
                                                               {1, 1139.920302151208 - 1424.379294994111},
                                                               {2, 11.03291221937134},
                                                               {4, 0.5735699284790808},
                                                               {6, 0.3231791658026955}};
   const auto error = [&](double h) {
-    const Sample sample = end(scene, BLieDF2nd::Options{.k = 4}, h, 0.03);
+    const Sample sample = end_of_motion(scene, BLieDF2nd::Options{.k = 4}, h, 0.03);
     double largest = 0.0;
     for (const auto& [body, value] : published)
       largest = std::max(largest, std::abs(sample.bodies[body].angular_velocity[2] - value));
@@ -113,7 +85,7 @@ TEST(SceneMotion, KovalevskayasConstantStaysConstant) {
     const Eigen::Vector3d G = rotation_of(top).row(2), w = vector_of(top.angular_velocity);
     return std::pow(w(0) * w(0) - w(1) * w(1) - G(0), 2) + std::pow(2.0 * w(0) * w(1) - G(1), 2);
   };
-  const AssembledScene scene = scene_of("kovalevskaya_top");
+  const AssembledScene scene = assembled_scene("kovalevskaya_top");
   const auto error = [&](double h) {
     double largest = 0.0;
     for (const Sample& sample : motion(scene, BLieDF2nd::Options{.k = 4}, h, 10.0, 16))
@@ -127,7 +99,7 @@ TEST(SceneMotion, KovalevskayasConstantStaysConstant) {
 
 // R J Omega and the energy, near the middle axis.
 TEST(SceneMotion, ATorqueFreeBodyKeepsItsAngularMomentumAndItsEnergy) {
-  const AssembledScene scene = scene_of("torque_free_body");
+  const AssembledScene scene = assembled_scene("torque_free_body");
   const Eigen::Matrix3d J = scene.scene.bodies[0].inertia;
   const auto drift = [&](double h) {
     Eigen::Vector3d first = Eigen::Vector3d::Zero();
@@ -158,7 +130,7 @@ TEST(SceneMotion, MechanismsUnderGravityKeepTheirEnergyAndTheirJoints) {
   };
   for (const Mechanism& m : {Mechanism{"bricard", 0x1p-10, 2.0}, Mechanism{"slider_crank", 0x1p-10, 1.0},
                              Mechanism{"chain_3", 0x1p-10, 0.5}}) {
-    const AssembledScene scene = scene_of(m.name);
+    const AssembledScene scene = assembled_scene(m.name);
     const auto drift = [&](double step) {
       std::vector<double> energies;
       for (const Sample& sample : motion(scene, BLieDF2nd::Options{.k = 3}, step, m.t_end, 4)) {

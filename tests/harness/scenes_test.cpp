@@ -178,13 +178,19 @@ TEST(Scenes, AndrewsSqueezerBeginsWithItsPublishedAccelerations) {
   for (Eigen::Index i = 2; i < 7; ++i) EXPECT_NEAR(turning_acceleration(a, i)(2), 0.0, 1e-5) << i;
 }
 
-// Its published data are one motion: what a conrod's ends do is what the crank and the slider do there.
+// Its published data are one motion: what a conrod's ends do is what the crank and the slider do there. With other axes of the
+// universal joint than x of the slider and (0, 2, -1) of the conrod these velocities may fit, too, but not the rank: with z and
+// (2, -1, 0), in one plane with the conrod, the joint does not hold it at the beginning.
 TEST(Scenes, TheSliderCrankHasOneDegreeOfFreedomAndItsPublishedVelocities) {
   const SceneDescription scene = scene_of("slider_crank");
-  const Eigen::Vector3d published(1.6941176470530785, -0.8470588235366621, 0.705882352947701);
-  EXPECT_LT((scene.bodies[1].angular_velocity - published).norm(), 1e-10);
+  EXPECT_EQ(scene.bodies[1].angular_velocity, Eigen::Vector3d(1.92, -0.96, 0.48));
   const Eigen::Vector3d along(0.2, -0.1, -0.2);
   EXPECT_LT((scene.bodies[1].inertia * along - 4e-4 * along).norm(), 1e-18);
+  const System system(make_scene_model<double>(scene));
+  Eigen::MatrixXd B(system.multipliers(), 18);
+  for (Eigen::Index i = 0; i < 18; ++i)
+    B.col(i) = system.constraint_product(system.initial_configuration(), Eigen::VectorXd::Unit(18, i));
+  EXPECT_EQ(B.colPivHouseholderQr().rank(), 17);
 }
 
 TEST(Scenes, TheSpringsOfTheGovernorAreSlackAtTheBeginning) {
