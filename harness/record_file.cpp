@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "harness/errors.h"
-#include "harness/record_parser.h"
 
 namespace liebench {
 
@@ -96,7 +95,7 @@ FileDescriptor::~FileDescriptor() {
   if (value_ >= 0) ::close(value_);
 }
 
-RecordFile::RecordFile(std::filesystem::path file) : file_(std::move(file)) {
+RecordFile::RecordFile(std::filesystem::path file, const LineReader& read) : file_(std::move(file)) {
   std::error_code code;
   // A device would be read without end.
   const auto kind = std::filesystem::status(file_, code).type();
@@ -127,7 +126,7 @@ RecordFile::RecordFile(std::filesystem::path file) : file_(std::move(file)) {
     const std::string line = text.substr(begin, end - begin);
     begin = end == std::string::npos ? text.size() : end + 1;
     if (line.empty()) continue;
-    const Json record = parse_record(line, place);
+    const Json record = read(line, place);
     const auto key = record["key"].get<std::string>();
     keep(key, line);
   }

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "harness/record_parser.h"
 #include "harness/strict_json.h"
 
 namespace liebench {
@@ -31,6 +34,9 @@ class FileDescriptor {
   int value_ = -1;
 };
 
+// Reads one line, a record of some kind; `place` is for the InputError that it throws where the line is none.
+using LineReader = std::function<Json(std::string_view line, const std::string& place)>;
+
 // A growing file of records. Each record is appended whole, in one write, when its run ends, so that a run
 // that is killed loses nothing that had ended; `sort` then brings the file into the order of the study.
 class RecordFile {
@@ -38,7 +44,7 @@ class RecordFile {
   // Opens or creates the file and reads what is there. A torn last line, left by a machine that failed, is
   // dropped with a message on standard error. Throws InputError where the file holds anything else that is
   // not a record, MachineError where it cannot be written.
-  explicit RecordFile(std::filesystem::path file);
+  explicit RecordFile(std::filesystem::path file, const LineReader& read = parse_record);
 
   bool has(const std::string& key) const { return lines_.contains(key); }
   // The record of this key, which is there.

@@ -1,5 +1,7 @@
 #include "plots/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -32,14 +34,20 @@ std::vector<std::size_t> line_ends(std::string_view text) {
 }  // namespace
 
 std::string gnuplot_literal(std::string_view text) {
-  // Single quotes: gnuplot runs no backquoted commands and no escapes in them.
+  // Single quotes: gnuplot runs no backquoted commands and no escapes in them. One of them is written as two, but of more in a row
+  // gnuplot 5.4 loses count: those stand in a string of their own, in double quotes.
   std::string result = "'";
-  for (const char letter : text) {
-    if (letter == '\'') {
-      result += "''";
-    } else {
-      result += static_cast<unsigned char>(letter) < 0x20 ? ' ' : letter;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\'') {
+      result += static_cast<unsigned char>(text[i]) < 0x20 ? ' ' : text[i];
+      continue;
     }
+    const std::size_t end = std::min(text.find_first_not_of('\'', i), text.size());
+    if (end - i == 1)
+      result += "''";
+    else
+      result += fmt::format("'.\"{}\".'", text.substr(i, end - i));
+    i = end - 1;
   }
   return result + "'";
 }

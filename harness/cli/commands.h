@@ -26,6 +26,7 @@ void add_plot(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_simulate(CLI::App& app, int& status);
 void add_effects(CLI::App& app, int& status);
+void add_stability(CLI::App& app, int& status);
 void add_list(CLI::App& app, int& status);
 void add_describe(CLI::App& app, int& status);
 

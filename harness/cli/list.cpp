@@ -9,6 +9,7 @@
 #include "harness/errors.h"
 #include "harness/methods.h"
 #include "harness/problems.h"
+#include "harness/stability/case.h"
 #include "harness/strict_json.h"
 
 namespace liebench {
@@ -33,6 +34,11 @@ void list(const std::string& what) {
     for (const Json& effect : effects())
       fmt::print("{:<20} {}\n", effect_name(effect),
                  effect.at("properties").at("type").at("description").get<std::string>());
+    return;
+  }
+  if (what == "stability") {
+    for (const StabilityCase& entry : stability_cases())
+      fmt::print("{:<20} {}\n", entry.name, entry.question);
     return;
   }
   if (what == "problems") {
@@ -67,7 +73,7 @@ void describe_method(const MethodInfo& method) {
       "In a study:\n  {{\"name\": \"{}\"",
       method.name);
   for (const OptionInfo& info : method.options)
-    if (info.scope == OptionScope::everywhere) fmt::print(", \"{}\": {}", info.name, default_text(info));
+    if (info.scope == OptionScope::everywhere && !info.unsaid) fmt::print(", \"{}\": {}", info.name, default_text(info));
   fmt::print("}}\n");
 }
 
@@ -118,6 +124,17 @@ void describe_effect(const Json& effect) {
       effect_name(effect));
 }
 
+void describe_case(const StabilityCase& entry) {
+  fmt::print("{}: {}\n\nCriterion: {}.\nTheory: {}.\n\nTrials:\n", entry.name, entry.question,
+             entry.criterion, entry.theory);
+  std::vector<std::string> variants;
+  for (const Trial& trial : entry.trials())
+    if (std::find(variants.begin(), variants.end(), trial.variant) == variants.end())
+      variants.push_back(trial.variant);
+  for (const std::string& variant : variants) fmt::print("  {}\n", variant);
+  fmt::print("\nliebench stability --only {}\n", entry.name);
+}
+
 void describe(const std::string& name) {
   std::vector<std::string> names{"record", "study", "scene"};
   if (std::find(names.begin(), names.end(), name) != names.end())
@@ -134,6 +151,10 @@ void describe(const std::string& name) {
     if (effect_name(effect) == name) return describe_effect(effect);
     names.push_back(effect_name(effect));
   }
+  for (const StabilityCase& entry : stability_cases()) {
+    if (entry.name == name) return describe_case(entry);
+    names.emplace_back(entry.name);
+  }
   throw InputError("describe", fmt::format("unknown name \"{}\"; allowed: {}{}", name, quoted_list(names),
                                            suggestion(name, names)));
 }
@@ -143,17 +164,18 @@ void describe(const std::string& name) {
 void add_list(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("list", "List what the program knows");
   auto what = std::make_shared<std::string>();
-  command->add_option("what", *what, "problems, integrators or effects")
+  command->add_option("what", *what, "problems, integrators, effects or stability")
       ->required()
-      ->check(CLI::IsMember({"problems", "integrators", "effects"}));
+      ->check(CLI::IsMember({"problems", "integrators", "effects", "stability"}));
   command->footer("Example:\n  liebench list integrators");
   command->callback([what] { list(*what); });
 }
 
 void add_describe(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("describe",
-                                         "Say what an integrator, a problem or an effect is and what it "
-                                         "takes; record, study, scene: the JSON schema");
+  CLI::App* command =
+      app.add_subcommand("describe",
+                         "Say what an integrator, a problem, an effect or a hard case is and what it "
+                         "takes; record, study, scene: the JSON schema");
   auto name = std::make_shared<std::string>();
   command->add_option("name", *name, "a name from `liebench list`, or record, study or scene")
       ->required()

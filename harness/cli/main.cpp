@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   add_run(app, status);
   add_simulate(app, status);
   add_effects(app, status);
+  add_stability(app, status);
   add_table(app, status);
   add_plot(app, status);
   add_compare(app, status);

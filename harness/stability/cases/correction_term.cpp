@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "harness/correction_stability.h"
+#include "harness/scene_reader.h"
+#include "harness/stability/cases/cases.h"
+
+// The explicit correction term of BLieDF2nd where the constraint fixes the increments: a spinning body whose joint is on the axis of its
+// spin, away from the centre of mass, disturbed by 1e-8 of its velocity.
+
+namespace liebench {
+
+namespace correction_term_case {
+
+namespace {
+
+constexpr double disturbance = 1e-8;
+constexpr std::uint64_t steps = 600;
+
+// About the joint the body is a needle: a disturbance of its spin makes the axis turn by next to nothing in a step, and nothing but the
+// correction term moves it. What the constraint takes of a change of Omega across the axis is m l^2 / (J_1 + m l^2) of it.
+constexpr double mass = 1e4, moment = 1.0, held = mass / (moment + mass);
+SceneDescription body_at(double t, double spin) {
+  static const SceneDescription still = read_scene(parse_json(R"({"name": "spinning body",
+    "bodies": [{"name": "body", "mass": 10000, "inertia": [1, 1, 0.01], "position": [0, 0, 1]}],
+    "joints": [{"name": "tip", "type": "spherical", "bodies": ["ground", "body"], "point": [0, 0, 0]}]})",
+                                                              "spinning body"));
+  SceneDescription scene = still;
+  scene.bodies[0].angular_velocity = {0.0, 0.0, spin};
+  scene.bodies[0].orientation = {std::cos(0.5 * spin * t), 0.0, 0.0, std::sin(0.5 * spin * t)};
+  return scene;
+}
+
+Finding examine(const Contestant& method, const std::string& form, double angle, double bound) {
+  SceneRun run;
+  run.scene = assembled(body_at(0.0, angle));
+  run.integrator = std::string(method.method->name);
+  run.options = method.options_for(form, false);
+  run.step_size = 1.0;
+  run.steps = steps;
+  run.exact = [=](double t) { return body_at(t, angle); };
+  // Of the kind that fulfils B v = 0.
+  run.disturb = [=](std::vector<StartingPoint>& points) {
+    StartingPoint& last = points[std::size_t(method.steps() - 1)];
+    const double d = disturbance * angle;
+    last.v(3) += d;
+    const double c = std::cos(angle * double(method.steps() - 1)),
+                 s = std::sin(angle * double(method.steps() - 1));
+    // x' = R (Omega x X): Omega = (d, 0, .) moves X = (0, 0, 1) by (0, -d, 0) in the body frame.
+    last.v(0) += s * d;
+    last.v(1) += -c * d;
+  };
+  double transverse = 0.0;
+  run.watch = [&](const WatchedState& s) {
+    transverse = std::hypot(s.bodies[0].omega(0), s.bodies[0].omega(1));
+  };
+  Finding finding = finding_of(run_scene(run));
+  const double radius =
+      correction_spectral_radius(method.steps(), method.correction() == "implicit", held * angle);
+  const bool affected = form == "index3" && angle * held > bound;
+  finding.expected = affected ? Grade::failed : Grade::survived;
+  finding.measured["spectral_radius"] = radius;
+  finding.what = "disturbance, times the first";
+  finding.reason = form == "index3"
+                       ? fmt::format("stable up to h |v| = {:.4g}; here {:.4g}", bound, angle)
+                       : "in the stabilized form v is tied to B v = 0: the term does not feed itself";
+  if (finding.grade == Grade::failed) return finding;
+  finding.amount = transverse / (disturbance * angle);
+  finding.measured["disturbance_factor"] = *finding.amount;
+  if (!(*finding.amount <= 1e3)) finding.grade = Grade::failed;
+  return finding;
+}
+
+std::vector<Trial> trials() {
+  std::vector<Trial> all;
+  for (const double part : {0.8, 1.25})
+    for (Trial& trial : trials_of(
+             constrained_forms, [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
+               if (method.correction().empty() || !method.is("bliedf2nd")) return std::nullopt;
+               const double bound =
+                   correction_stability_bound(method.steps(), method.correction() == "implicit");
+               const double angle = part * bound;
+               // Steps that turn by pi are no case for it.
+               if (angle > 3.0) return std::nullopt;
+               Trial t;
+               t.variant = fmt::format("h |v| = {:.4g}, {} of the bound", angle, part);
+               t.parameters = {{"part", part}, {"angle", angle}};
+               t.run = [=, &method] { return examine(method, form, angle, bound); };
+               return t;
+             }))
+      all.push_back(std::move(trial));
+  return all;
+}
+
+}  // namespace
+
+}  // namespace correction_term_case
+
+StabilityCase correction_term() {
+  return {
+      .name = "correction_term",
+      .title = "Correction term",
+      .question = "Up to which h |v| is the correction term L_k stable?",
+      .criterion = "survived: a disturbance of 1e-8 has grown by less than 1000 after 600 steps",
+      .theory = "the recursion e_{n+1} = -h^2 dL_k of the velocity's errors (harness/correction_stability.h)",
+      .trials = correction_term_case::trials};
+}
+
+}  // namespace liebench

@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "harness/scene_reader.h"
+#include "harness/stability/cases/cases.h"
+
+// Runs at the edge of what a run is: an outcome each time, and never a NaN in one that is called ok.
+
+namespace liebench {
+
+namespace degenerate_runs_case {
+
+namespace {
+
+std::shared_ptr<const AssembledScene> pendulum(const std::string& factor) {
+  Json scene = parse_json(R"({"name": "pendulum",
+    "bodies": [{"name": "rod", "mass": 1, "inertia": [0.01, 0.0833333, 0.0833333], "position": [0.5, 0, 0]}],
+    "joints": [{"name": "hinge", "type": "revolute", "bodies": ["ground", "rod"], "point": [0, 0, 0], "axis": [0, 1, 0]}],
+    "effects": [{"type": "uniform_gravity", "acceleration": [0, 0, -9.81]}]})",
+                          "pendulum");
+  if (!factor.empty())
+    scene["effects"].push_back({{"type", "applied_force"},
+                                {"body", "rod"},
+                                {"torque", {0, 1, 0}},
+                                {"factor", {{"expression", factor}}}});
+  return assembled(read_scene(scene));
+}
+
+struct Plan {
+  const char* variant;
+  double step_size;
+  std::uint64_t steps;
+  const char* factor;  // of a torque; "" without
+  Grade expected;
+  const char* reason;
+};
+
+Finding examine(const Plan& plan, const Contestant& method, const std::string& form) {
+  SceneRun run;
+  run.scene = pendulum(plan.factor);
+  run.integrator = std::string(method.method->name);
+  run.options = method.options_for(form);
+  run.step_size = plan.step_size;
+  run.steps = plan.steps;
+  run.every = std::max<std::uint64_t>(1, plan.steps);
+  double first = 0.0, last = 0.0;
+  run.watch = [&](const WatchedState& s) { (s.step == 0 ? first : last) = s.energy; };
+  const SceneRunEnd end = run_scene(run);
+  Finding finding = finding_of(end);
+  finding.expected = plan.expected;
+  finding.reason = plan.reason;
+  finding.what = "energy, of 4.9 J";
+  finding.measured["reached"] = double(end.reached);
+  // A run that is called ok holds no NaN, and one that fails says when.
+  if (end.outcome == Outcome::ok && !end.finite) finding.grade = Grade::failed;
+  if (end.outcome != Outcome::ok && !finding.failure) finding.grade = Grade::degraded;
+  if (finding.grade != Grade::survived || plan.steps == 0) return finding;
+  const double error = std::abs(last - first) / 4.905;
+  finding.amount = error;
+  finding.measured["energy"] = error;
+  if (!(error <= 0.1)) finding.grade = Grade::degraded;
+  return finding;
+}
+
+std::vector<Trial> trials() {
+  static const std::vector<Plan> plans{
+      {"no step", 1e-3, 0, "", Grade::survived, "an interval of no length is its initial values"},
+      {"one step", 1e-3, 1, "", Grade::survived, "of a k-step method one of its starting points"},
+      {"four steps", 1e-3, 4, "", Grade::survived, "fewer than k = 5, 6 start from: the start covers them"},
+      {"backwards", -1e-3, 500, "", Grade::survived, "the equations of a pendulum are the same backwards"},
+      {"h = 1e-300 s", 1e-300, 50, "", Grade::survived, "nothing moves; 1 / h is still a number"},
+      {"h = 1e300 s", 1e300, 50, "", Grade::failed,
+       "a step that turns by pi and more, or overflows, has an outcome for it"},
+      {"NaN half-way", 1e-3, 100, "t < 0.05 ? 1 : sqrt(-1)", Grade::failed, "no step can be taken there"},
+      {"infinity half-way", 1e-3, 100, "t < 0.05 ? 1 : 1/0", Grade::failed, "no step can be taken there"},
+  };
+  std::vector<Trial> all;
+  for (const Plan& plan : plans)
+    for (Trial& trial : trials_of(
+             constrained_forms, [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
+               Trial t;
+               t.variant = plan.variant;
+               t.parameters = {{"run", plan.variant}, {"step_size", plan.step_size}, {"steps", plan.steps}};
+               t.work = 0.5;
+               t.run = [&plan, &method, form] { return examine(plan, method, form); };
+               return t;
+             }))
+      all.push_back(std::move(trial));
+  return all;
+}
+
+}  // namespace
+
+}  // namespace degenerate_runs_case
+
+StabilityCase degenerate_runs() {
+  return {.name = "degenerate_runs",
+          .title = "Degenerate runs",
+          .question = "Has every run an outcome, however odd its request?",
+          .criterion =
+              "survived: ended well with finite numbers and its energy within 10 %; failed: ended with an "
+              "outcome that says so",
+          .theory = "a failure is a record; a NaN is none",
+          .trials = degenerate_runs_case::trials};
+}
+
+}  // namespace liebench

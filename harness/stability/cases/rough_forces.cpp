@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/scene_reader.h"
+#include "harness/stability/cases/cases.h"
+
+// Forces that change within a step: dry friction, impacts, a torque that jumps.
+
+namespace liebench {
+
+namespace rough_forces_case {
+
+namespace {
+
+constexpr double h = 1e-3;
+
+enum class Rough { friction, contact, jump };
+
+// Energies, J, of all states.
+struct Course {
+  double first = 0.0, least = 0.0, most = 0.0, last = 0.0;
+  Eigen::Vector3d omega = Eigen::Vector3d::Zero();
+};
+
+Finding follow(const SceneDescription& scene, const Contestant& method, const std::string& form, double step,
+               double t_end, Course& course) {
+  SceneRun run;
+  run.scene = assembled(scene);
+  run.integrator = std::string(method.method->name);
+  run.options = method.options_for(form);
+  run.step_size = step;
+  run.steps = std::uint64_t(std::llround(t_end / step));
+  run.every = 1;
+  run.watch = [&](const WatchedState& s) {
+    if (s.step == 0) course.first = course.least = course.most = s.energy;
+    course.least = std::min(course.least, s.energy);
+    course.most = std::max(course.most, s.energy);
+    course.last = s.energy;
+    course.omega = s.bodies[0].omega;
+  };
+  return finding_of(run_scene(run));
+}
+
+// A disc of 1 kg m^2 with 1 rad/s and a friction of 2 N m: at rest after half a second.
+Finding friction(const Contestant& method, const std::string& form, double slip) {
+  Json scene = parse_json(R"({"name": "disc",
+    "bodies": [{"name": "disc", "mass": 2, "inertia": [0.6, 0.6, 1], "angular_velocity": [0, 0, 1]}],
+    "joints": [{"name": "hinge", "type": "revolute", "bodies": ["ground", "disc"], "point": [0, 0, 0], "axis": [0, 0, 1]}]})",
+                          "disc");
+  scene["effects"] = {
+      {{"type", "joint_friction"}, {"joint", "hinge"}, {"torque", 2.0}, {"slip_velocity", slip}}};
+  Course course;
+  Finding finding = follow(read_scene(scene), method, form, h, 1.0, course);
+  finding.what = "rad/s left where it should rest";
+  finding.reason =
+      "the law is monotone: A-stable methods pass through it; tanh is flat outside its slip velocity";
+  if (finding.grade == Grade::failed) return finding;
+  const double left = std::abs(course.omega(2));
+  finding.amount = left;
+  finding.measured["rate"] = left;
+  finding.measured["energy_gain"] = course.most / course.first - 1.0;
+  // A step of the torque and the slip velocity are what it cannot resolve.
+  if (!(left <= 2.0 * h + slip)) finding.grade = left <= 1.0 ? Grade::degraded : Grade::failed;
+  return finding;
+}
+
+// A ball dropped from half a metre on a stiff ground, without loss: it may come back with less, never with more.
+Finding contact(const Contestant& method, const std::string&, double stiffness) {
+  Json scene = parse_json(R"({"name": "ball",
+    "bodies": [{"name": "ball", "mass": 1, "shape": {"type": "sphere", "radius": 0.1}, "position": [0, 0, 0.6]}],
+    "effects": [{"type": "uniform_gravity", "acceleration": [0, 0, -9.81]}]})",
+                          "ball");
+  scene["effects"].push_back({{"type", "contact"},
+                              {"body", "ball"},
+                              {"radius", 0.1},
+                              {"plane", {{"normal", {0, 0, 1}}}},
+                              {"stiffness", stiffness},
+                              {"exponent", 1.5}});
+  Course course;
+  Finding finding = follow(read_scene(scene), method, "", h, 1.0, course);
+  finding.what = "energy, times the first, after bouncing";
+  // 2.94 (m^2 / (k^2 v))^(1/5), Hertz, with the 3.13 m/s of half a metre.
+  const double duration = 2.94 * std::pow(1.0 / (stiffness * stiffness * 3.13), 0.2);
+  finding.measured["contact_steps"] = duration / h;
+  finding.reason = fmt::format("the impact takes {:.2g} steps", duration / h);
+  // What few steps resolve is a jump of the velocity for the method, and how high it comes back depends on where the jump falls.
+  if (duration < 20.0 * h) finding.at_worst = Grade::degraded;
+  if (finding.grade == Grade::failed) return finding;
+  // From the ground up: 0.5 m of 9.81 N.
+  constexpr double ground = 0.1 * 9.81;
+  const double gain = (course.most - ground) / (course.first - ground);
+  finding.amount = gain;
+  finding.measured["largest_energy"] = gain;
+  finding.measured["last_energy"] = (course.last - ground) / (course.first - ground);
+  if (!(gain <= 1.1)) finding.grade = gain <= 100.0 ? Grade::degraded : Grade::failed;
+  return finding;
+}
+
+// A torque of 1 N m that sets in at t = 0.30005 s, inside a step: the rate is that of the time since then.
+Finding jump(const Contestant& method, const std::string& form, double) {
+  Json scene = parse_json(R"({"name": "disc",
+    "bodies": [{"name": "disc", "mass": 2, "inertia": [0.6, 0.6, 1]}],
+    "joints": [{"name": "hinge", "type": "revolute", "bodies": ["ground", "disc"], "point": [0, 0, 0], "axis": [0, 0, 1]}],
+    "effects": [{"type": "applied_force", "body": "disc", "torque": [0, 0, 1], "factor": {"expression": "t < 0.30005 ? 0 : 1"}}]})",
+                          "disc");
+  Course course;
+  Finding finding = follow(read_scene(scene), method, form, h, 0.5, course);
+  finding.what = "error of the rate, steps of the torque";
+  finding.reason = "the jump is known to a step: order 1";
+  if (finding.grade == Grade::failed) return finding;
+  const double error = std::abs(course.omega(2) - (0.5 - 0.30005)) / h;
+  finding.amount = error;
+  finding.measured["error_in_steps"] = error;
+  if (!(error <= 2.0)) finding.grade = error <= 20.0 ? Grade::degraded : Grade::failed;
+  return finding;
+}
+
+std::vector<Trial> trials() {
+  std::vector<Trial> all;
+  const auto add = [&](const std::string& variant, const std::vector<std::string>& forms, double value,
+                       Finding (*examine)(const Contestant&, const std::string&, double)) {
+    for (Trial& trial :
+         trials_of(forms, [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
+           Trial t;
+           t.variant = variant;
+           t.parameters = {{"force", variant}, {"step_size", h}};
+           t.work = 4.0;
+           t.run = [=, &method] { return examine(method, form, value); };
+           return t;
+         }))
+      all.push_back(std::move(trial));
+  };
+  for (const double slip : {1e-1, 1e-3, 1e-5, 1e-8})
+    add(fmt::format("friction, slip velocity {} rad/s", slip), constrained_forms, slip, friction);
+  for (const double stiffness : {1e4, 1e6, 1e8, 1e10})
+    add(fmt::format("impact, {:.0e} N/m^1.5", stiffness), unconstrained, stiffness, contact);
+  add("torque that jumps", constrained_forms, 0.0, jump);
+  return all;
+}
+
+}  // namespace
+
+}  // namespace rough_forces_case
+
+StabilityCase rough_forces() {
+  return {.name = "rough_forces",
+          .title = "Rough forces",
+          .question = "What do friction, impacts and jumps do to a step?",
+          .criterion =
+              "survived: at rest within a step's torque and the slip velocity; no energy gained at an "
+              "impact; a jump resolved to two "
+              "steps; degraded: within 1 rad/s, a hundred times the energy, 20 steps",
+          .theory = "order is lost where a force is rough; boundedness is not",
+          .trials = rough_forces_case::trials};
+}
+
+}  // namespace liebench

@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "harness/scene_reader.h"
+#include "harness/stability/cases/cases.h"
+#include "integrators/bdf_coefficients.h"
+
+// The multipliers of the paper's top as h -> 0, in the index-3 form.
+
+namespace liebench {
+
+namespace small_steps_case {
+
+namespace {
+
+constexpr double eps = 0x1p-52;
+constexpr double mass = 15.0;
+
+std::shared_ptr<const AssembledScene> scene() {
+  static const auto top = assembled(read_scene(parse_json(R"({"name": "heavy top",
+    "bodies": [{"name": "top", "mass": 15, "inertia": [0.234375, 0.46875, 0.234375], "position": [0, 1, 0],
+                "velocity": [4.61538, 0, 0], "angular_velocity": [0, 150, -4.61538]}],
+    "joints": [{"name": "tip", "type": "spherical", "bodies": ["ground", "top"], "point": [0, 0, 0]}],
+    "effects": [{"type": "uniform_gravity", "acceleration": [0, 0, -9.81]}]})",
+                                                          "heavy top")));
+  return top;
+}
+
+// What one unit of noise in Phi makes of v' h^2: the sums of the sizes of the coefficients of both differences.
+double noise_gain(const Contestant& method) {
+  if (const auto rho = method.rho_inf()) {
+    // a_{n+1} from the recursion d = beta h (a_{n+1} - a_n), v' by the filter with poles -rho_inf.
+    const double beta = 1.0 / ((*rho + 1.0) * (*rho + 1.0));
+    return 4.0 / beta / std::max(1.0 - *rho, 0.05);
+  }
+  const auto c = bdf_coefficients<double>(method.steps());
+  double alpha = 0.0, gamma = 0.0;
+  for (int i = 0; i <= method.steps(); ++i) alpha += std::abs(c.alpha[std::size_t(i)]);
+  for (int i = 0; i < method.steps(); ++i) gamma += std::abs(c.gamma[std::size_t(i)]);
+  return alpha * gamma * 2.0;
+}
+
+// The largest |lambda - lambda(q, v)| over the last half of the run.
+std::pair<Finding, double> noise(const Contestant& method, const std::string& form, double h,
+                                 std::uint64_t steps) {
+  SceneRun run;
+  run.scene = scene();
+  run.integrator = std::string(method.method->name);
+  run.options = method.options_for(form);
+  run.step_size = h;
+  run.steps = steps;
+  run.every = 1;
+  double largest = 0.0;
+  run.watch = [&](const WatchedState& s) {
+    if (2 * s.step >= steps)
+      largest = std::max(largest, (s.multipliers - s.consistent_multipliers).cwiseAbs().maxCoeff());
+  };
+  Finding finding = finding_of(run_scene(run));
+  return {finding, largest};
+}
+
+Finding examine(const Contestant& method, const std::string& form, double h) {
+  constexpr std::uint64_t steps = 1000;
+  auto [finding, largest] = noise(method, form, h, steps);
+  finding.expected = Grade::survived;
+  const double floor = noise_gain(method) * mass * eps / (h * h);
+  // What the method itself leaves, from a step size where it is all.
+  constexpr double coarse = 1e-4;
+  double truncation = 0.0;
+  if (h < coarse)
+    truncation = noise(method, form, coarse, steps).second * std::pow(h / coarse, method.order());
+  finding.measured["lambda_error"] = largest;
+  finding.measured["floor"] = floor;
+  finding.measured["truncation"] = truncation;
+  finding.what = "|lambda error| / predicted";
+  finding.amount = largest / (floor + truncation);
+  finding.reason =
+      "Phi is known to eps |x|, and lambda to m eps |x| / h^2 times the coefficients of the method";
+  if (weakly_unstable(method, form)) {
+    finding.at_worst = Grade::failed;
+    finding.reason = "rho_inf = 1: the multipliers of the index-3 form are weakly unstable";
+  }
+  if (finding.grade == Grade::survived && !(*finding.amount <= 4.0)) finding.grade = Grade::failed;
+  return finding;
+}
+
+std::vector<Trial> trials() {
+  std::vector<Trial> all;
+  for (const double h : {1e-5, 1e-6, 1e-7})
+    for (Trial& trial : trials_of(
+             constrained_forms, [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
+               Trial t;
+               t.variant = fmt::format("h = {:.0e} s", h);
+               t.parameters = {{"step_size", h}};
+               t.work = 3.0;
+               t.run = [=, &method] { return examine(method, form, h); };
+               return t;
+             }))
+      all.push_back(std::move(trial));
+  return all;
+}
+
+}  // namespace
+
+}  // namespace small_steps_case
+
+StabilityCase small_steps() {
+  return {.name = "small_steps",
+          .title = "Small steps",
+          .question = "Do the multipliers keep their digits as h goes to 1e-7 s?",
+          .criterion =
+              "survived: the error of lambda is within 4 times round-off's floor m eps |x| c / h^2 and the "
+              "method's own error",
+          .theory = "the condition of the scaled system does not depend on h; Phi is known to eps |x|",
+          .trials = small_steps_case::trials};
+}
+
+}  // namespace liebench

@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <complex>
+
+#include "harness/scene_reader.h"
+#include "harness/stability/cases/cases.h"
+
+// A torsional spring from soft to stiff at one step size: a disc on a hinge, from the exact motion.
+
+namespace liebench {
+
+namespace stiffness_case {
+
+namespace {
+
+constexpr double moment = 1.0;      // kg m^2
+constexpr double h = 1e-3;          // s
+constexpr double amplitude = 1e-3;  // rad
+constexpr std::uint64_t steps = 1000;
+
+// A hinge with a torsional spring, or no joint and a bushing: the same oscillation.
+SceneDescription disc(bool constrained, double stiffness, double damping) {
+  Json scene = parse_json(
+      R"({"name": "disc", "bodies": [{"name": "disc", "mass": 2, "inertia": [0.6, 0.6, 1]}]})", "disc");
+  if (constrained) {
+    scene["joints"] = parse_json(
+        R"([{"name": "hinge", "type": "revolute", "bodies": ["ground", "disc"], "point": [0, 0, 0], "axis": [0, 0, 1]}])",
+        "");
+    scene["effects"] = {
+        {{"type", "torsional_spring"}, {"joint", "hinge"}, {"stiffness", stiffness}, {"damping", damping}}};
+  } else {
+    const std::vector<double> none(3, 0.0), k{stiffness, stiffness, stiffness}, d{damping, damping, damping};
+    scene["effects"] = {{{"type", "bushing"},
+                         {"bodies", {"ground", "disc"}},
+                         {"point", {0, 0, 0}},
+                         {"stiffness", none},
+                         {"rotational_stiffness", k},
+                         {"rotational_damping", d}}};
+  }
+  return read_scene(scene);
+}
+
+// phi'' = -(K phi + D phi') / J: exp(mu t) and its conjugate, or two real ones.
+std::complex<double> root(double stiffness, double damping) {
+  const double a = damping / (2.0 * moment), b = stiffness / moment - a * a;
+  return b >= 0.0 ? std::complex<double>(-a, std::sqrt(b)) : std::complex<double>(-a - std::sqrt(-b), 0.0);
+}
+
+struct Angle {
+  double phi, rate;
+};
+Angle angle_at(double t, double stiffness, double damping) {
+  const double a = damping / (2.0 * moment), b = stiffness / moment - a * a;
+  if (b > 0.0) {
+    const double w = std::sqrt(b), decay = amplitude * std::exp(-a * t);
+    // phi(0) = amplitude, phi'(0) = -a amplitude
+    return {decay * std::cos(w * t), decay * (-a * std::cos(w * t) - w * std::sin(w * t))};
+  }
+  const double s = -a + std::sqrt(-b);
+  return {amplitude * std::exp(s * t), amplitude * s * std::exp(s * t)};
+}
+
+Finding examine(const Contestant& method, const std::string& form, double stiffness, double damping,
+                bool own_start) {
+  SceneRun run;
+  const SceneDescription at_rest = disc(!form.empty(), stiffness, damping);
+  const auto at = [=](double t) {
+    SceneDescription scene = at_rest;
+    const Angle angle = angle_at(t, stiffness, damping);
+    scene.bodies[0].orientation = {std::cos(0.5 * angle.phi), 0.0, 0.0, std::sin(0.5 * angle.phi)};
+    scene.bodies[0].angular_velocity = {0.0, 0.0, angle.rate};
+    return scene;
+  };
+  AssembledScene moved = *assembled(at_rest);
+  moved.scene = at(0.0);
+  run.scene = std::make_shared<AssembledScene>(moved);
+  run.integrator = std::string(method.method->name);
+  run.options = method.options_for(form);
+  run.step_size = h;
+  run.steps = steps;
+  if (!own_start) run.exact = at;
+  double energy = 0.0;
+  run.watch = [&](const WatchedState& s) { energy = s.energy; };
+  Finding finding = finding_of(run_scene(run));
+  const double first = 0.5 * stiffness * amplitude * amplitude;
+  const std::complex<double> z = h * root(stiffness, damping);
+  const double radius = spectral_radius(method, z);
+  finding.what = "amplitude, times the first";
+  // Of the amplitude.
+  constexpr double grown = 2.0, kept = 0.5;
+  const double growth = std::pow(radius, double(steps)), exact = std::exp(z.real() * double(steps));
+  finding.measured["spectral_radius"] = radius;
+  finding.measured["h_omega"] = std::abs(z);
+  finding.expected = growth > grown          ? Grade::failed
+                     : growth < kept * exact ? Grade::degraded
+                                             : Grade::survived;
+  // A state of the method: of a_0 not all goes in the first step, and a velocity of h a_0 stays.
+  const double first_acceleration = std::norm(root(stiffness, damping)) * amplitude;
+  if (method.rho_inf() && h * h * first_acceleration > 1.0) finding.at_worst = Grade::failed;
+  finding.reason =
+      fmt::format("z = h mu = {:.3g}{:+.3g}i has the spectral radius {:.4g}", z.real(), z.imag(), radius);
+  if (finding.grade == Grade::failed) return finding;
+  const double factor = std::sqrt(energy / first);
+  finding.measured["amplitude"] = factor;
+  finding.amount = factor;
+  finding.grade = !(factor <= grown)      ? Grade::failed
+                  : factor < kept * exact ? Grade::degraded
+                                          : Grade::survived;
+  return finding;
+}
+
+struct Damping {
+  double ratio;
+  std::string_view words;
+};
+
+std::vector<Trial> trials() {
+  std::vector<Trial> all;
+  std::vector<std::string> forms = unconstrained;
+  forms.insert(forms.end(), constrained_forms.begin(), constrained_forms.end());
+  // Damping ratios: none, a hundredth, critical.
+  const std::vector<Damping> dampings{
+      {0.0, "undamped"}, {0.01, "lightly damped"}, {1.0, "critically damped"}};
+  for (const double stiffness : {1e2, 1e4, 1e6, 1e8, 1e10, 1e12})
+    for (const Damping& damped : dampings)
+      for (Trial& trial :
+           trials_of(forms, [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
+             const double damping = 2.0 * damped.ratio * std::sqrt(stiffness * moment);
+             Trial t;
+             t.variant = fmt::format("{:.0e} N m/rad, {}", stiffness, damped.words);
+             t.parameters = {{"stiffness", stiffness}, {"damping_ratio", damped.ratio}};
+             t.quick = damped.ratio != 0.01;
+             t.run = [=, &method] { return examine(method, form, stiffness, damping, false); };
+             return t;
+           }))
+        all.push_back(std::move(trial));
+  return all;
+}
+
+}  // namespace
+
+}  // namespace stiffness_case
+
+StabilityCase stiffness() {
+  return {.name = "stiffness",
+          .title = "Stiff spring",
+          .question = "From which stiffness on does a spring ruin the motion at h = 1 ms?",
+          .criterion =
+              "survived: the amplitude is within a factor of 2 of the exact one after 1000 steps; degraded: "
+              "damped by more; failed: "
+              "grown by more, or ended",
+          .theory =
+              "the spectral radius of the method at z = h mu: A(alpha)-stability, 90, 90, 86, 73, 52, 18 "
+              "degrees for k = 1, ..., 6",
+          .trials = stiffness_case::trials};
+}
+
+}  // namespace liebench

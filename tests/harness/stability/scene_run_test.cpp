@@ -1,0 +1,138 @@
+#include "harness/stability/scene_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "harness/scene_reader.h"
+#include "harness/stability/contestant.h"
+
+namespace liebench {
+namespace {
+
+std::shared_ptr<const AssembledScene> disc(double slip_velocity) {
+  Json scene = parse_json(R"({"name": "disc",
+    "bodies": [{"name": "disc", "mass": 2, "inertia": [0.6, 0.6, 1], "angular_velocity": [0, 0, 1]}],
+    "joints": [{"name": "hinge", "type": "revolute", "bodies": ["ground", "disc"], "point": [0, 0, 0], "axis": [0, 0, 1]}]})",
+                          "disc");
+  if (slip_velocity > 0.0)
+    scene["effects"] = {
+        {{"type", "joint_friction"}, {"joint", "hinge"}, {"torque", 2.0}, {"slip_velocity", slip_velocity}}};
+  return assembled(read_scene(scene));
+}
+
+std::shared_ptr<const AssembledScene> double_pendulum() {
+  return assembled(read_scene(parse_json(R"({"name": "double pendulum",
+    "bodies": [{"name": "a", "mass": 1, "inertia": [0.01, 0.0833333, 0.0833333], "position": [0.5, 0, 0]},
+               {"name": "b", "mass": 1, "inertia": [0.01, 0.0833333, 0.0833333], "position": [1.5, 0, 0]}],
+    "joints": [{"type": "spherical", "bodies": ["ground", "a"], "point": [0, 0, 0]},
+               {"type": "spherical", "bodies": ["a", "b"], "point": [1, 0, 0]}],
+    "effects": [{"type": "uniform_gravity", "acceleration": [0, 0.3, -9.81]}]})",
+                                         "double pendulum")));
+}
+
+SceneRun run_of(const std::shared_ptr<const AssembledScene>& scene, Contestant method, bool safeguard) {
+  method.safeguard = safeguard;
+  SceneRun run;
+  run.scene = scene;
+  run.integrator = std::string(method.method->name);
+  run.options = method.options_for("index3");
+  run.step_size = 1e-3;
+  run.steps = 1000;
+  return run;
+}
+
+TEST(Safeguard, TakesAStepThroughFrictionThatPlainNewtonDoesNot) {
+  for (const Contestant& method : contestants(false)) {
+    SceneRun run = run_of(disc(1e-8), method, false);
+    EXPECT_EQ(run_scene(run).outcome, Outcome::newton_diverged) << method.name;
+    run = run_of(disc(1e-8), method, true);
+    double rate = 1.0;
+    run.watch = [&](const WatchedState& s) { rate = s.bodies[0].omega(2); };
+    EXPECT_EQ(run_scene(run).outcome, Outcome::ok) << method.name;
+    // Two steps of the torque and the slip velocity.
+    EXPECT_LE(std::abs(rate), 4e-3 + 1e-8) << method.name;
+  }
+}
+
+TEST(Safeguard, ChangesNoBitOfARunThatDoesNotFail) {
+  for (const Contestant& method : contestants(false)) {
+    std::vector<double> states[2];
+    for (const bool safeguard : {false, true}) {
+      SceneRun run = run_of(double_pendulum(), method, safeguard);
+      run.steps = 200;
+      run.every = 10;
+      run.watch = [&](const WatchedState& s) {
+        for (const auto& body : s.bodies)
+          for (int i = 0; i < 3; ++i) states[safeguard].push_back(body.x(i));
+        for (Eigen::Index i = 0; i < s.multipliers.size(); ++i) states[safeguard].push_back(s.multipliers(i));
+      };
+      ASSERT_EQ(run_scene(run).outcome, Outcome::ok) << method.name;
+    }
+    EXPECT_EQ(states[0], states[1]) << method.name;
+  }
+}
+
+TEST(SceneRun, BackwardsLeadsToWhereItCameFrom) {
+  const Contestant method = contestant("bliedf2nd", {{"k", 4}});
+  SceneRun run = run_of(double_pendulum(), method, false);
+  run.steps = 300;
+  WatchedState end;
+  run.watch = [&](const WatchedState& s) { end = s; };
+  ASSERT_EQ(run_scene(run).outcome, Outcome::ok);
+  AssembledScene there = *run.scene;
+  for (std::size_t i = 0; i < 2; ++i) {
+    BodyDescription& body = there.scene.bodies[i];
+    body.position = end.bodies[i].x;
+    body.velocity = end.bodies[i].u;
+    body.orientation = SO3<double>::quaternion(end.bodies[i].R);
+    body.angular_velocity = end.bodies[i].omega;
+  }
+  SceneRun back = run;
+  back.scene = std::make_shared<AssembledScene>(there);
+  back.step_size = -run.step_size;
+  WatchedState again;
+  back.watch = [&](const WatchedState& s) { again = s; };
+  ASSERT_EQ(run_scene(back).outcome, Outcome::ok);
+  // Twice the error of order 4 at h = 1e-3 s.
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_LE((again.bodies[i].x - run.scene->scene.bodies[i].position).norm(), 1e-7);
+}
+
+TEST(SceneRun, WatchesEverySoManyStepsFromTheFirstToTheLast) {
+  SceneRun run = run_of(disc(0.0), contestant("bliedf2nd", {{"k", 5}}), false);
+  run.steps = 23;
+  run.every = 10;
+  std::vector<std::uint64_t> seen;
+  run.watch = [&](const WatchedState& s) {
+    seen.push_back(s.step);
+    EXPECT_DOUBLE_EQ(s.t, 1e-3 * double(s.step));
+    // 1 rad/s from the start.
+    EXPECT_NEAR(std::atan2(s.bodies[0].R(1, 0), s.bodies[0].R(0, 0)), s.t, 1e-14);
+  };
+  EXPECT_EQ(run_scene(run).reached, 23u);
+  EXPECT_EQ(seen, (std::vector<std::uint64_t>{0, 10, 20, 23}));
+}
+
+TEST(SceneRun, AFailureSaysTheStepAndTheTime) {
+  Json scene = parse_json(R"({"name": "rod",
+    "bodies": [{"name": "rod", "mass": 1, "inertia": [0.1, 0.1, 0.1]}],
+    "effects": [{"type": "applied_force", "body": "rod", "torque": [0, 0, 1], "factor": {"expression": "t < 0.0495 ? 1 : sqrt(-1)"
+}
+}]
+})",
+                          "rod");
+SceneRun run =
+    run_of(assembled(read_scene(scene)), contestant("generalized_alpha", {{"rho_inf", 0.5}}), true);
+run.options = contestant("generalized_alpha", {{"rho_inf", 0.5}}).options_for("");
+const SceneRunEnd end = run_scene(run);
+EXPECT_EQ(end.outcome, Outcome::non_finite);
+ASSERT_TRUE(end.failure.has_value());
+// The first step that ends beyond 0.0495 s.
+EXPECT_EQ(end.failure->step, 50u);
+EXPECT_DOUBLE_EQ(end.failure->time, 0.05);
+EXPECT_EQ(end.reached, 49u);
+}
+
+}  // namespace
+}  // namespace liebench

@@ -1,0 +1,89 @@
+#include "harness/stability/suite.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "harness/errors.h"
+#include "harness/execute.h"
+#include "harness/progress.h"
+#include "harness/stability/report.h"
+
+namespace liebench {
+namespace {
+
+std::vector<Json> records_of(const std::vector<SuiteTrial>& trials, int jobs) {
+  std::vector<Json> records(trials.size());
+  Progress progress("stability", 1.0);
+  run_suite(trials, jobs, progress, [&](std::size_t index, const Json& record) { records[index] = record; });
+  return records;
+}
+
+std::string text_of(std::vector<Json> records) {
+  std::string text;
+  for (Json& record : records) {
+    record.erase("provenance");
+    text += record.dump() + "\n";
+  }
+  return text;
+}
+
+// The fast half: a method that does worse than theory says, or better, is a defect of one of them.
+TEST(StabilitySuite, NoMethodSurprises) {
+  const auto trials = suite({}, true);
+  ASSERT_GT(trials.size(), 1000u);
+  int shown = 0;
+  for (const Json& record : records_of(trials, default_jobs())) {
+    const std::string verdict = record.at("verdict");
+    if (plain(record) || (verdict != "failed_unexpectedly" && verdict != "passed_unexpectedly")) continue;
+    ADD_FAILURE() << record.at("case") << ' ' << record.at("variant") << ' ' << record.at("subject") << ' '
+                  << record.value("form", "") << ": " << record.at("outcome") << ", " << record.at("grade")
+                  << " where " << record.at("reason") << " lets expect " << record.at("expected");
+    if (++shown == 20) break;
+  }
+}
+
+TEST(StabilitySuite, TheRecordsDoNotDependOnTheNumberOfJobs) {
+  const auto trials = suite({"degenerate_runs", "large_rotations"}, true);
+  EXPECT_EQ(text_of(records_of(trials, 1)), text_of(records_of(trials, 3)));
+}
+
+TEST(StabilitySuite, EveryTrialHasAKeyOfItsOwn) {
+  std::set<std::string> keys;
+  const auto trials = suite({}, false);
+  for (const SuiteTrial& trial : trials) keys.insert(trial.key());
+  EXPECT_EQ(keys.size(), trials.size());
+}
+
+TEST(StabilitySuite, AnUnknownCaseIsRefusedWithTheNearestName) {
+  try {
+    suite({"stifness"}, true);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean \"stiffness\"?"), std::string::npos)
+        << error.what();
+  }
+}
+
+// A method is in the suite with every choice of options that sets its members apart, or the suite would say nothing of it.
+TEST(StabilitySuite, EveryMethodOfTheListIsAContestant) {
+  std::set<std::string_view> names;
+  for (const Contestant& contestant : contestants(true)) names.insert(contestant.method->name);
+  for (const MethodInfo& method : methods()) EXPECT_TRUE(names.contains(method.name)) << method.name;
+}
+
+TEST(StabilitySuite, EveryCaseHasItsSectionInTheDocumentation) {
+  std::ifstream file(std::string(LIEBENCH_SOURCE_DIR) + "/docs/stability.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  for (const StabilityCase& entry : stability_cases()) {
+    // "Singular, redundant" is "Singular and redundant" there.
+    const std::string title(entry.title.substr(0, entry.title.find_first_of(", ")));
+    EXPECT_NE(text.str().find("\n## " + title), std::string::npos) << entry.title;
+  }
+}
+
+}  // namespace
+}  // namespace liebench
