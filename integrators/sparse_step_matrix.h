@@ -190,7 +190,7 @@ class SparseStepMatrix {
     }
     template <class Block>
     void rate_gradient(Eigen::Index row, int j, const Block& Z) {
-      to.add(to.m_ + to.l_ + row, bodies[std::size_t(j)].v, Block(h * times_tangent(Z, j)));
+      to.add(to.m_ + to.l_ + row, bodies[std::size_t(j)].v, (h * times_tangent(Z, j)).eval());
     }
   };
   struct GradientSink {

@@ -338,7 +338,7 @@ class SceneSystem {
       if constexpr (Effect::two_bodies) add(placed.b, b, on_b, g);
     });
   }
-  // A joint to the ground that does not need its state. What counts does not take this way, so that its counts stay.
+  // A joint to the ground that does not need its state. What counts takes the long way, so that its counts stay.
   template <class C>
   static bool on_ground(const PlacedConstraint<C>& c) {
     if constexpr (!std::is_same_v<T, double>) return false;
@@ -508,6 +508,12 @@ class SceneSystem {
           if (row < 0) continue;
           Eigen::Matrix<T, 1, 6> direct = Eigen::Matrix<T, 1, 6>::Constant(T(0.0));
           direct.template tail<3>() = rate.row(r);
+          if (std::is_same_v<T, double> && body.plain()) {
+            // motion(s) is the identity, and motion_derivative(s) zero. What counts
+            // takes the long way.
+            sink.rate_gradient(row, i, direct);
+            continue;
+          }
           const Wrenches unit = gradient_row(c, pair, r);
           sink.rate_gradient(row, i,
                              Block<T>(direct * body.motion(s) +
