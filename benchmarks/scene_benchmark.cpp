@@ -18,8 +18,9 @@ std::unique_ptr<AnyStepper<S>> started_itself(const MethodOptions& options, cons
 }
 
 // The first 0.2 s of a chain let go from the horizontal, again and again.
+template <class System>
 void chain_step(benchmark::State& state) {
-  const Scene system(make_scene_model<double>(chain(int(state.range(0)))));
+  const System system(make_scene_model<double>(chain(int(state.range(0)))));
   const auto at_start = started_itself(BLieDF2nd::Options{.k = 3}, system, 1e-3);
   const auto stepper = at_start->clone();
   for (auto _ : state) {
@@ -33,7 +34,9 @@ void chain_step(benchmark::State& state) {
   state.counters["per_body"] = benchmark::Counter(
       double(state.range(0)), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(chain_step)
+// Without the heap.
+BENCHMARK_TEMPLATE(chain_step, SmallScene)->DenseRange(1, small_scene)->Name("scene/small_chain/k=3/bodies");
+BENCHMARK_TEMPLATE(chain_step, Scene)
     ->RangeMultiplier(10)
     ->Range(10, 10000)
     ->Complexity(benchmark::oN)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "groups/entrywise.h"
 #include "problems/system.h"
 
 // A closure is what a method adds to the step equation: v and h v' at the new point as functions of the change
@@ -55,9 +56,22 @@ struct AffineClosure {
   }
   // The same into vectors that are there.
   void put(const Velocity<S>& d, ClosureValues<S>& values) const {
-    values.velocity_change = velocity_slope * d + velocity_change;
-    values.velocity = velocity + values.velocity_change;
-    values.scaled_acceleration = acceleration_slope * d + scaled_acceleration;
+    if constexpr (!goes_by_entries<Velocity<S>>) {
+      values.velocity_change = velocity_slope * d + velocity_change;
+      values.velocity = velocity + values.velocity_change;
+      values.scaled_acceleration = acceleration_slope * d + scaled_acceleration;
+    } else {
+      values.velocity_change.resize(d.size());
+      values.velocity.resize(d.size());
+      values.scaled_acceleration.resize(d.size());
+      const auto put_entry = [&](Eigen::Index i) __attribute__((always_inline)) {
+        const T change = velocity_slope * d(i) + velocity_change(i);
+        values.velocity_change(i) = change;
+        values.velocity(i) = velocity(i) + change;
+        values.scaled_acceleration(i) = acceleration_slope * d(i) + scaled_acceleration(i);
+      };
+      each_entry(d.size(), put_entry);
+    }
   }
   ClosureDerivatives<LinearScalar<T>> linearization(const Velocity<S>&) const {
     return {to_linear(velocity_slope), to_linear(acceleration_slope)};

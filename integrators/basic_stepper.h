@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "groups/entrywise.h"
 #include "integrators/audit.h"
 #include "integrators/form.h"
 #include "integrators/newton.h"
@@ -55,8 +56,8 @@ class BasicStepper {
                      Point& point) {
     using Equation = typename Kernel::Equation;
     typename Kernel::Unknowns z = Equation::unknowns(system());
-    Equation::change(z, system()) = change;
-    if constexpr (l != 0) Equation::scaled_lambda(z, system()) = scaled_lambda;
+    set(Equation::change(z, system()), change);
+    if constexpr (l != 0) set(Equation::scaled_lambda(z, system()), scaled_lambda);
     if constexpr (stabilized) Equation::eta(z, system()).setConstant(T(0.0));
     const T t = t_ + h_;
     StepResult result = newton_.solve(t, h_, q_, closure, z, point);
@@ -68,11 +69,11 @@ class BasicStepper {
     }
     t_ = t;
     q_ = point.q;
-    velocity_ = point.values.velocity;
-    change = Equation::change(z, system());
+    set(velocity_, point.values.velocity);
+    set(change, Equation::change(z, system()));
     if constexpr (l != 0) {
-      scaled_lambda = Equation::scaled_lambda(z, system());
-      lambda_ = scaled_lambda / h_;
+      set(scaled_lambda, Equation::scaled_lambda(z, system()));
+      set(lambda_, scaled_lambda / h_);
     }
     return result;
   }

@@ -5,6 +5,7 @@
 #include <span>
 #include <type_traits>
 
+#include "groups/entrywise.h"
 #include "integrators/affine_closure.h"
 #include "integrators/basic_stepper.h"
 #include "integrators/bdf_coefficients.h"
@@ -140,7 +141,7 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
   [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
 
   StepResult take_step() {
-    state_.velocity = velocity_;
+    set(state_.velocity, velocity_);
     if (!kinematics_.defined(state_)) return {Outcome::rotation_too_large};
     const AffineClosure<S> affine = affine_part();
     const auto closure = kinematics_.closure(state_, affine);
@@ -151,10 +152,11 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
     const StepResult result = Base::advance(closure, change, scaled_lambda, point);
     if (result.outcome != Outcome::ok) return result;
     const Velocity<S>& velocity_change = point.values.velocity_change;
-    state_.kappa += velocity_change - (affine.velocity_slope * point.change + affine.velocity_change);
+    set(state_.kappa,
+        state_.kappa + (velocity_change - (affine.velocity_slope * point.change + affine.velocity_change)));
     state_.velocity_changes.push(velocity_change);
-    if constexpr (Base::stabilized) stabilization_ = point.change - change;
-    state_.increment += change;
+    if constexpr (Base::stabilized) set(stabilization_, point.change - change);
+    set(state_.increment, state_.increment + change);
     state_.increment_changes.push(change);
     kinematics_.accept(point.motion);
     first_ = false;
@@ -179,27 +181,32 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
   AffineClosure<S> affine_part() const {
     const int k = state_.k;
     const auto& gamma = state_.coefficients.gamma;
-    Velocity<S> change = first_change_;
+    const auto older_gamma = [&](int i) -> const T& { return gamma[std::size_t(i + 1)]; };
+    AffineClosure<S> closure;
+    closure.velocity_slope = gamma[0];
+    closure.acceleration_slope = gamma[0] * gamma[0];
+    set(closure.base_increment, state_.increment);
+    set(closure.velocity, velocity_);
+    Velocity<S>& change = closure.velocity_change;
+    set(change, first_change_);
     if (!first_) {
       change.setConstant(T(0.0));
-      for (int i = 1; i < k; ++i) change += gamma[std::size_t(i)] * state_.increment_changes[i - 1];
+      state_.increment_changes.add_weighted(0, k - 1, older_gamma, change);
     }
     // The position increments are those without eta, the velocities those with it.
-    if constexpr (Base::stabilized) change -= gamma[0] * stabilization_;
-    Velocity<S> acceleration = gamma[0] * change;
-    for (int i = 1; i < k; ++i) acceleration += gamma[std::size_t(i)] * state_.velocity_changes[i - 1];
-    return {.base_increment = state_.increment,
-            .velocity = velocity_,
-            .velocity_slope = gamma[0],
-            .velocity_change = change,
-            .acceleration_slope = gamma[0] * gamma[0],
-            .scaled_acceleration = acceleration};
+    if constexpr (Base::stabilized) set(change, change - gamma[0] * stabilization_);
+    Velocity<S>& acceleration = closure.scaled_acceleration;
+    set(acceleration, gamma[0] * change);
+    state_.velocity_changes.add_weighted(0, k - 1, older_gamma, acceleration);
+    return closure;
   }
 
   // From the extrapolated change of velocity through the closure, exact to the order of the method and beyond.
   Velocity<S> predicted_change(const AffineClosure<S>& closure) const {
     if (state_.velocity_changes.size() == 0) return zero_velocity(system());
-    return (state_.velocity_changes.extrapolated() - closure.velocity_change) / closure.velocity_slope;
+    Velocity<S> change = state_.velocity_changes.extrapolated();
+    set(change, (change - closure.velocity_change) / closure.velocity_slope);
+    return change;
   }
   // Where v is no affine function of d, d itself is extrapolated.
   template <class Closure>

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "groups/decimal.h"
+#include "groups/entrywise.h"
 #include "integrators/affine_closure.h"
 #include "integrators/audit.h"
 #include "integrators/basic_stepper.h"
@@ -139,8 +140,7 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
   [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
 
   StepResult take_step() {
-    Velocity<S> change = zero_velocity(system());
-    if (changes_.size() > 0) change = changes_.extrapolated();
+    Velocity<S> change = changes_.size() > 0 ? changes_.extrapolated() : zero_velocity(system());
     Multipliers<S> scaled_lambda;
     if constexpr (S::constraints != 0)
       scaled_lambda =
@@ -148,9 +148,9 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
     typename Base::Point point;
     const StepResult result = Base::advance(next_closure(), change, scaled_lambda, point);
     if (result.outcome != Outcome::ok) return result;
-    acceleration_ = point.values.scaled_acceleration / h_;
+    set(acceleration_, point.values.scaled_acceleration / h_);
     // d = beta h (a_{n+1} - a_n)
-    a_ += point.change / (parameters_.beta * h_);
+    set(a_, a_ + point.change / (parameters_.beta * h_));
     changes_.push(point.change);
     if constexpr (S::constraints != 0) scaled_lambdas_.push(scaled_lambda);
     return result;
@@ -181,12 +181,14 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
   AffineClosure<S> next_closure() const {
     const auto& p = parameters_;
     const T rest = T(1.0) - p.alpha_f;
-    return {.base_increment = velocity_ + (h_ / T(2.0)) * a_,
-            .velocity = velocity_,
-            .velocity_slope = p.gamma / p.beta,
-            .velocity_change = h_ * a_,
-            .acceleration_slope = (T(1.0) - p.alpha_m) / (p.beta * rest),
-            .scaled_acceleration = (h_ / rest) * (a_ - p.alpha_f * acceleration_)};
+    AffineClosure<S> closure;
+    closure.velocity_slope = p.gamma / p.beta;
+    closure.acceleration_slope = (T(1.0) - p.alpha_m) / (p.beta * rest);
+    set(closure.base_increment, velocity_ + (h_ / T(2.0)) * a_);
+    set(closure.velocity, velocity_);
+    set(closure.velocity_change, h_ * a_);
+    set(closure.scaled_acceleration, (h_ / rest) * (a_ - p.alpha_f * acceleration_));
+    return closure;
   }
 
   // v_0 += Dv, [M B^T; B 0] [Dv; .] = [0; B l / h] with the local error of a step,

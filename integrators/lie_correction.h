@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "groups/entrywise.h"
 #include "integrators/affine_closure.h"
 #include "integrators/backward_differences.h"
 #include "integrators/bdf_stepper.h"
@@ -58,7 +59,9 @@ template <class Group>
 typename Group::Tangent leading_correction(const Group& group, const typename Group::Scalar& h,
                                            const typename Group::Tangent& v,
                                            const typename Group::Tangent& a) {
-  return (h / typename Group::Scalar(12.0)) * group.commutator(v, a);
+  typename Group::Tangent correction = group.commutator(v, a);
+  set(correction, (h / typename Group::Scalar(12.0)) * correction);
+  return correction;
 }
 
 // h^2 L for k = 5, 6.
@@ -91,12 +94,14 @@ class ExplicitCorrection {
   bool defined(const BdfState<S>&) const { return true; }
   void accept(const Configuration<S>&) {}
 
-  AffineClosure<S> closure(const BdfState<S>& state, AffineClosure<S> affine) const {
+  AffineClosure<S> closure(const BdfState<S>& state, const AffineClosure<S>& given) const {
+    AffineClosure<S> affine = given;
     if constexpr (may_have_commutators<S>()) {
       if (present_) {
-        const Velocity<S> kappa_change = -correction(state) - state.kappa;
-        affine.velocity_change += kappa_change;
-        affine.scaled_acceleration += affine.velocity_slope * kappa_change;
+        Velocity<S> kappa_change = correction(state);
+        set(kappa_change, -kappa_change - state.kappa);
+        set(affine.velocity_change, affine.velocity_change + kappa_change);
+        set(affine.scaled_acceleration, affine.scaled_acceleration + affine.velocity_slope * kappa_change);
       }
     }
     return affine;
@@ -111,9 +116,10 @@ class ExplicitCorrection {
                            sum(weights_.explicit_derivative[2], state));
   }
   Velocity<S> sum(const typename CorrectionWeights<T>::Weights& weights, const BdfState<S>& state) const {
-    Velocity<S> s = weights[0] * state.velocity_changes[0];
-    for (int i = 1; i < weights_.explicit_changes; ++i)
-      s += weights[std::size_t(i)] * state.velocity_changes[i];
+    Velocity<S> s;
+    set(s, weights[0] * state.velocity_changes[0]);
+    state.velocity_changes.add_weighted(
+        1, weights_.explicit_changes, [&](int i) -> const T& { return weights[std::size_t(i)]; }, s);
     return s;
   }
 

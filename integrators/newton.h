@@ -6,6 +6,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "groups/entrywise.h"
 #include "integrators/audit.h"
 #include "integrators/inlining.h"
 #include "integrators/outcome.h"
@@ -157,7 +158,7 @@ class NewtonKernel {
       const Correction d = matrix_.solve(in_linear_scalar(r));
       audit_.solve();
       const Unknowns before = z;
-      z -= d.template cast<T>();
+      set(z, z - d.template cast<T>());
       Linear largest_d;
       const Linear size = weighted_norm(d, z, scale, largest_d);
       if (!std::isfinite(to_double(size))) return failure(Outcome::non_finite, r);
@@ -233,9 +234,9 @@ class NewtonKernel {
   // What round-off of d is relative to, apart from d itself.
   template <class Closure>
   Linear fixed_scale(const Closure& closure, const Configuration<S>& q_n, const Linear& h) const {
-    Linear scale = Linear(0.01) * closure.base().template cast<Linear>().template lpNorm<Eigen::Infinity>();
+    Linear scale = Linear(0.01) * largest_entry(closure.base().template cast<Linear>());
     if (multiplier_size(system_) != 0)
-      scale += S::Group::stacked(q_n).template cast<Linear>().template lpNorm<Eigen::Infinity>() / abs_of(h);
+      scale += largest_entry(S::Group::stacked(q_n).template cast<Linear>()) / abs_of(h);
     return scale;
   }
 
@@ -288,18 +289,15 @@ class NewtonKernel {
   [[gnu::always_inline]] Linear weighted_norm(const Correction& d, const Unknowns& z, Linear scale,
                                               Linear& largest_d) const {
     decltype(auto) z_linear = in_linear_scalar(z);
-    largest_d = Equation::change(z_linear, system_).template lpNorm<Eigen::Infinity>();
+    largest_d = largest_entry(Equation::change(z_linear, system_));
     scale += largest_d;
-    Linear largest = Equation::change(d, system_).template lpNorm<Eigen::Infinity>();
-    if constexpr (Equation::stabilized)
-      largest = std::max(largest, Equation::eta(d, system_).template lpNorm<Eigen::Infinity>());
+    Linear largest = largest_entry(Equation::change(d, system_));
+    if constexpr (Equation::stabilized) largest = std::max(largest, largest_entry(Equation::eta(d, system_)));
     Linear size = relative(largest, scale);
     if (multiplier_size(system_) != 0) {
       const Linear multiplier_scale =
-          Equation::scaled_lambda(z_linear, system_).template lpNorm<Eigen::Infinity>() +
-          matrix_.mass_scale() * scale;
-      size = std::max(size, relative(Equation::scaled_lambda(d, system_).template lpNorm<Eigen::Infinity>(),
-                                     multiplier_scale));
+          largest_entry(Equation::scaled_lambda(z_linear, system_)) + matrix_.mass_scale() * scale;
+      size = std::max(size, relative(largest_entry(Equation::scaled_lambda(d, system_)), multiplier_scale));
     }
     return size;
   }

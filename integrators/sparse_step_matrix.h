@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "groups/block_diagonal.h"
+#include "groups/entrywise.h"
 #include "integrators/audit.h"
 #include "integrators/consistent_projection.h"
 #include "integrators/form.h"
@@ -49,7 +50,7 @@ class SparseStepMatrix {
       : m_(velocity_size(system)),
         l_(multiplier_size(system)),
         matrix_(unknowns(system)),
-        extended_(matrix_.size()) {}
+        extended_(Vector::Constant(matrix_.size(), T(0.0))) {}
 
   static LinearSolver solver(const S& system) { return PatternedMatrix<T>::solver_of(unknowns(system)); }
 
@@ -96,15 +97,14 @@ class SparseStepMatrix {
   }
 
   Correction solve(const Correction& r) const {
+    Correction x(r.size());
     if (extended_.size() == r.size()) {
-      Correction x = r;
-      matrix_.solve(x);
-      return x;
+      matrix_.solve(r, x);
+    } else {
+      set(extended_.head(r.size()), r);
+      matrix_.solve(extended_, x);
     }
-    extended_.head(r.size()) = r;
-    extended_.tail(extended_.size() - r.size()).setConstant(T(0.0));
-    matrix_.solve(extended_);
-    return extended_.head(r.size());
+    return x;
   }
   // See DenseStepMatrix; of one to a thousand bodies.
   static constexpr double factorization_cost() { return 2.5; }
@@ -129,8 +129,7 @@ class SparseStepMatrix {
   }
   template <class Block>
   void add(Eigen::Index row, Eigen::Index column, const Block& block) {
-    for (Eigen::Index j = 0; j < block.cols(); ++j)
-      for (Eigen::Index i = 0; i < block.rows(); ++i) matrix_.add(row + i, column + j, block(i, j));
+    matrix_.add_block(row, column, block);
   }
   void take_mass(const T& largest) {
     if (mass_scale_ < largest) mass_scale_ = largest;
@@ -193,13 +192,13 @@ class SparseStepMatrix {
     template <class Block>
     void gradient(Eigen::Index row, int j, const Block& B) {
       const Eigen::Index v = bodies[std::size_t(j)].v, m = to.m_;
-      to.add(v, m + row, Block(B.transpose()));
+      to.add(v, m + row, B.transpose());
       to.add(m + row, v, times_tangent(B, j));
       if constexpr (stabilized) to.add(m + to.l_ + row, change + v, times(B, derivatives.velocity, j));
     }
     template <class Block>
     void rate_gradient(Eigen::Index row, int j, const Block& Z) {
-      to.add(to.m_ + to.l_ + row, bodies[std::size_t(j)].v, Block(h * times_tangent(Z, j)));
+      to.add(to.m_ + to.l_ + row, bodies[std::size_t(j)].v, (h * times_tangent(Z, j)).eval());
     }
   };
   struct GradientSink {
@@ -208,13 +207,13 @@ class SparseStepMatrix {
     Eigen::Index change;
     template <class Block>
     void gradient(Eigen::Index row, int j, const Block& B) {
-      to.add(change + bodies[std::size_t(j)].v, to.m_ + to.l_ + row, Block(-B.transpose()));
+      to.add(change + bodies[std::size_t(j)].v, to.m_ + to.l_ + row, -B.transpose());
     }
   };
 
   Eigen::Index m_, l_;
   PatternedMatrix<T> matrix_;
-  mutable Vector extended_;  // a right side with the rows of c
+  mutable Vector extended_;  // a right side with the rows of c, which are zero
   T mass_scale_ = T(0.0);
 };
 
@@ -245,7 +244,7 @@ class SparseSaddlePoint {
     regular_ = matrix_.factorize();
   }
   bool regular() const { return regular_; }
-  void solve(Vector& r) const { matrix_.solve(r); }
+  void solve(Vector& r) const { matrix_.solve(r, r); }
 
  private:
   struct Sink {
@@ -254,14 +253,13 @@ class SparseSaddlePoint {
     template <class Block>
     void gradient(Eigen::Index row, int j, const Block& B) {
       const Eigen::Index v = system.model().bodies[std::size_t(j)].v;
-      to.add(v, to.m_ + row, Block(B.transpose()));
+      to.add(v, to.m_ + row, B.transpose());
       to.add(to.m_ + row, v, B);
     }
   };
   template <class Block>
   void add(Eigen::Index row, Eigen::Index column, const Block& block) {
-    for (Eigen::Index j = 0; j < block.cols(); ++j)
-      for (Eigen::Index i = 0; i < block.rows(); ++i) matrix_.add(row + i, column + j, block(i, j));
+    matrix_.add_block(row, column, block);
   }
   Eigen::Index m_;
   PatternedMatrix<T> matrix_;

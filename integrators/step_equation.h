@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "groups/entrywise.h"
 #include "integrators/affine_closure.h"
 #include "integrators/form.h"
 #include "problems/system.h"
@@ -72,14 +73,23 @@ class StepEquation {
   template <class Closure>
   [[gnu::always_inline]] static void evaluate(const S& system, const T& h, const Configuration<S>& q_n,
                                               const Closure& closure, const Unknowns& z, Point& p) {
-    p.change = change(z, system);
-    p.step = h * closure.increment(p.change);
-    if constexpr (stabilized) {
-      const Multipliers<S> auxiliary = eta(z, system);
-      p.change += system.constraint_force(q_n, auxiliary);
+    set(p.change, change(z, system));
+    set(p.step, h * closure.increment(p.change));
+    if constexpr (InPlaceSystem<S>) {
+      if constexpr (stabilized) {
+        Velocity<S> forces;
+        system.put_constraint_force(q_n, z.data() + z.size() - multiplier_size(system), forces);
+        set(p.change, p.change + forces);
+      }
+      system.group().put_motion(q_n, p.step, p.motion, p.q);
+    } else {
+      if constexpr (stabilized) {
+        const Multipliers<S> auxiliary = eta(z, system);
+        p.change += system.constraint_force(q_n, auxiliary);
+      }
+      p.motion = group_of(system).exp(p.step);
+      p.q = group_of(system).compose(q_n, p.motion);
     }
-    p.motion = group_of(system).exp(p.step);
-    p.q = group_of(system).compose(q_n, p.motion);
     if constexpr (SizedLieGroup<typename S::Group> && requires { closure.put(p.change, p.values); })
       closure.put(p.change, p.values);
     else
@@ -90,16 +100,22 @@ class StepEquation {
   [[gnu::always_inline]] static void residual(const S& system, const T& t, const T& h, const Point& p,
                                               const Unknowns& z, Unknowns& r) {
     const Velocity<S>& v = p.values.velocity;
-    change(r, system) = system.momentum(p.q, p.values.scaled_acceleration) + h * system.force(t, p.q, v);
-    if constexpr (l != 0) {
-      // Of a size known at run time there may be none.
-      if (multiplier_size(system) != 0) {
-        const Multipliers<S> multipliers = scaled_lambda(z, system);
-        change(r, system) += system.constraint_force(p.q, multipliers);
-        scaled_lambda(r, system) = constraint_at(system, t, p.q) / h;
+    if constexpr (InPlaceSystem<S>) {
+      const Eigen::Index rows = velocity_size(system);
+      T* const rate = stabilized ? r.data() + rows + multiplier_size(system) : nullptr;
+      system.put_step_residual(t, h, p.q, v, p.values.scaled_acceleration, z.data() + rows, r.data(), rate);
+    } else {
+      change(r, system) = system.momentum(p.q, p.values.scaled_acceleration) + h * system.force(t, p.q, v);
+      if constexpr (l != 0) {
+        // Of a size known at run time there may be none.
+        if (multiplier_size(system) != 0) {
+          const Multipliers<S> multipliers = scaled_lambda(z, system);
+          change(r, system) += system.constraint_force(p.q, multipliers);
+          scaled_lambda(r, system) = constraint_at(system, t, p.q) / h;
+        }
       }
+      if constexpr (stabilized) eta(r, system) = constraint_rate(system, t, p.q, v);
     }
-    if constexpr (stabilized) eta(r, system) = constraint_rate(system, t, p.q, v);
   }
 
   // The Newton matrix at the point, with the derivatives of the closure there.

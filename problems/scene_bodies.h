@@ -237,14 +237,34 @@ struct Body {
   }
 
   // M w.
-  template <class Vectors>
-  void add_momentum(const Vectors& w, Vectors& p) const {
+  template <class Vectors, class Result>
+  void add_momentum(const Vectors& w, Result& p) const {
     if (has_fixed_point(kind)) {
       p.template segment<3>(v) = inertia_of_motion * w.template segment<3>(v);
       return;
     }
     p.template segment<3>(v) = mass * w.template segment<3>(v);
     if (rotates()) p.template segment<3>(v + 3) = inertia * w.template segment<3>(v + 3);
+  }
+  // Its rows of r = M w + h g + f, with the applied forces in place of g, which are overwritten.
+  template <class Vectors, class Result>
+  void put_equation(const T& h, const Vectors& w, const Vectors& all, const Vectors& f, Vectors& applied,
+                    Result& r) const {
+    if (plain()) {
+      const Vector omega = all.template segment<3>(v + 3);
+      Vector turning = -applied.template segment<3>(v + 3);
+      if (gyroscopic) turning += omega.cross(inertia * omega);
+      r.template segment<3>(v) =
+          (mass * w.template segment<3>(v) + h * -applied.template segment<3>(v)) + f.template segment<3>(v);
+      r.template segment<3>(v + 3) =
+          (inertia * w.template segment<3>(v + 3) + h * turning) + f.template segment<3>(v + 3);
+      return;
+    }
+    const Eigen::Index end = v + velocities();
+    for (Eigen::Index i = v; i < end; ++i) applied(i) = -applied(i);
+    if (has_inertial_forces()) add_inertial(all, applied);
+    add_momentum(w, r);
+    for (Eigen::Index i = v; i < end; ++i) r(i) = (r(i) + h * applied(i)) + f(i);
   }
   Block mass_matrix() const {
     Block M = Block::Constant(velocities(), velocities(), T(0.0));

@@ -88,6 +88,13 @@ struct Coincidence {
     on_b.torque += point_b.template cast<U>().cross(b.R.transpose() * lambda);
   }
 
+  // The same where a is the ground, in its own frame.
+  Vector residual_on_ground(const RigidState<T>& b) const { return b.point(point_b) - point_a; }
+  Vector rate_on_ground(const RigidState<T>& b) const { return b.point_velocity(point_b); }
+  Wrench<T> wrench_on_ground(const RigidState<T>& b, const Vector& lambda) const {
+    return {lambda, point_b.cross(b.R.transpose() * lambda)};
+  }
+
   // What a Newton matrix needs, without Jets: the derivatives of the torques and of the rate with respect to the rotation of
   // the same body; all others vanish.
   static constexpr bool only_turning = true;

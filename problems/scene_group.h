@@ -25,15 +25,15 @@ class SceneGroup {
   using TangentMatrix = BlockDiagonal<T>;
   using Bodies = std::vector<Body<T>>;
 
-  explicit SceneGroup(const Bodies& bodies) : bodies_(&bodies) {}
+  explicit SceneGroup(const Bodies& bodies)
+      : SceneGroup(bodies, bodies.empty() ? 0 : bodies.back().v + bodies.back().velocities()) {}
+  SceneGroup(const Bodies& bodies, Eigen::Index size) : bodies_(&bodies), size_(size) {}
   template <class U>
   SceneGroup over() const {
     return *this;
   }
 
-  Eigen::Index size() const {
-    return bodies_->empty() ? 0 : bodies_->back().v + bodies_->back().velocities();
-  }
+  Eigen::Index size() const { return size_; }
   Eigen::Index coordinates() const {
     return bodies_->empty() ? 0 : bodies_->back().q + bodies_->back().coordinates();
   }
@@ -65,6 +65,19 @@ class SceneGroup {
       Element result(coordinates());
       each([&]<class G>(G, const Body<T>& b) { put<G>(result, b, G::exp(part<G>(v, b))); });
       return result;
+    });
+  }
+  // motion = exp(step), q = q_n o motion
+  void put_motion(const Element& q_n, const Tangent& step, Element& motion, Element& q) const {
+    inlined<T>([&] {
+      count(&GroupCalls::exp);
+      motion.resize(q_n.size());
+      q.resize(q_n.size());
+      each([&]<class G>(G, const Body<T>& b) {
+        const typename G::Element moved = G::exp(part<G>(step, b));
+        put<G>(motion, b, moved);
+        put<G>(q, b, G::compose(at<G>(q_n, b), moved));
+      });
     });
   }
   Tangent log(const Element& q) const {
@@ -151,6 +164,7 @@ class SceneGroup {
   }
 
   const Bodies* bodies_;
+  Eigen::Index size_;
 };
 
 }  // namespace liebench

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "groups/entrywise.h"
 #include "problems/effects/list.h"
 #include "problems/scene_constraints.h"
 #include "problems/scene_derivatives.h"
@@ -27,18 +28,28 @@ struct PlacedConstraint {
   // The places of its rows among the multipliers; -1 for one that other constraints imply, which is left out.
   std::array<Eigen::Index, std::size_t(Constraint::rows)> row;
 
-  template <class Value, class Vectors>
-  void scatter(const Value& value, Vectors& all) const {
+  template <class Value, class T>
+  void scatter(const Value& value, T* all) const {
+    if (complete()) {
+      for (int r = 0; r < Constraint::rows; ++r) all[row[0] + r] = value(r);
+      return;
+    }
     for (int r = 0; r < Constraint::rows; ++r)
-      if (row[std::size_t(r)] >= 0) all(row[std::size_t(r)]) = value(r);
+      if (row[std::size_t(r)] >= 0) all[row[std::size_t(r)]] = value(r);
   }
-  template <class T, class Vectors>
-  Eigen::Matrix<T, Constraint::rows, 1> gathered(const Vectors& all) const {
+  template <class T>
+  Eigen::Matrix<T, Constraint::rows, 1> gathered(const T* all) const {
     Eigen::Matrix<T, Constraint::rows, 1> own;
+    if (complete()) {
+      for (int r = 0; r < Constraint::rows; ++r) own(r) = all[row[0] + r];
+      return own;
+    }
     for (int r = 0; r < Constraint::rows; ++r)
-      own(r) = row[std::size_t(r)] >= 0 ? T(all(row[std::size_t(r)])) : T(0.0);
+      own(r) = row[std::size_t(r)] >= 0 ? all[row[std::size_t(r)]] : T(0.0);
     return own;
   }
+  // Without a row that is left out: one after the other.
+  bool complete() const { return row[0] >= 0 && row.back() == row[0] + Constraint::rows - 1; }
 };
 
 template <class T>
@@ -53,8 +64,9 @@ struct SceneModel {
   std::vector<Body<T>> bodies;
   SceneConstraints<T> constraints;
   SceneEffects<T> effects;
-  Eigen::Index rows = 0;                                       // of all constraints
-  Vector q, v;                                                 // initial values
+  Eigen::Index rows = 0;  // of all constraints
+  Vector q, v;            // initial values
+  RigidState<T> ground = RigidState<T>::ground();
   Eigen::Matrix<T, 3, 1> vertical = {T(0.0), T(0.0), T(1.0)};  // for the angular momentum
 };
 
@@ -74,10 +86,14 @@ class SceneSystem {
   using State = RigidState<T>;
   using Block6 = Eigen::Matrix<Linear, 6, 6>;
 
-  explicit SceneSystem(std::shared_ptr<const SceneModel<T>> model) : model_(std::move(model)) {}
+  explicit SceneSystem(std::shared_ptr<const SceneModel<T>> model)
+      : model_(std::move(model)),
+        size_(Group(model_->bodies).size()),
+        used_effects_(used_lists(model_->effects)),
+        used_constraints_(used_lists(model_->constraints)) {}
   const SceneModel<T>& model() const { return *model_; }
 
-  Group group() const { return Group(model_->bodies); }
+  Group group() const { return Group(model_->bodies, size_); }
   Eigen::Index multipliers() const { return model_->rows; }
   Element initial_configuration() const { return model_->q; }
   Tangent initial_velocity() const { return model_->v; }
@@ -91,26 +107,8 @@ class SceneSystem {
   }
   Tangent force(const T& t, const Element& q, const Tangent& v) const {
     return inlined<T>([&]() -> Tangent {
-      Tangent g = Tangent::Constant(v.size(), T(0.0));
-      each_effect([&](const auto& placed) {
-        const auto& effect = placed.effect;
-        using Effect = std::remove_cvref_t<decltype(effect)>;
-        if constexpr (!Effect::two_bodies && !Effect::uses_pose && !Effect::uses_velocity)
-          if (plain(placed.a)) {
-            // Neither the effect nor what its force is for the velocities depends on the state.
-            static const State anywhere = State::ground();
-            Wrench<T> on_a = Wrench<T>::zero(), none = on_a;
-            effect.template add_wrenches<T>(t, anywhere, anywhere, on_a, none);
-            return add(placed.a, anywhere, on_a, g);
-          }
-        Pair<T> pair = states(placed.a, placed.b, q, &v);
-        effect.template add_wrenches<T>(t, pair.a, pair.b, pair.on_a, pair.on_b);
-        add(placed.a, pair.a, pair.on_a, g);
-        if constexpr (Effect::two_bodies) add(placed.b, pair.b, pair.on_b, g);
-      });
-      g = -g;
-      for (const Body<T>& body : model_->bodies)
-        if (body.has_inertial_forces()) body.add_inertial(v, g);
+      Tangent g(v.size());
+      put_force(t, Seen(*this, q, &v), v, g);
       return g;
     });
   }
@@ -138,10 +136,7 @@ class SceneSystem {
   Multipliers constraint(const T& t, const Element& q) const {
     return inlined<T>([&]() -> Multipliers {
       Multipliers phi(multipliers());
-      each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
-        const Pair<T> pair = states(c.a, c.b, q, nullptr);
-        c.scatter(c.constraint.template residual<T>(t, pair.a, pair.b), phi);
-      });
+      put_constraint(t, Seen(*this, q), phi.data());
       return phi;
     });
   }
@@ -162,21 +157,40 @@ class SceneSystem {
         set_drift(c.b, drift.b);
         curvature += c.constraint.template rate<T>(t, drift.a, drift.b, false);
       }
-      c.scatter(curvature, z);
+      c.scatter(curvature, z.data());
     });
     return z;
   }
   Tangent constraint_force(const Element& q, const Multipliers& lambda) const {
-    return inlined<T>([&]() -> Tangent {
-      Tangent forces = Tangent::Constant(group().size(), T(0.0));
+    Tangent forces;
+    put_constraint_force(q, lambda.data(), forces);
+    return forces;
+  }
+
+  // See InPlaceSystem.
+  void put_constraint_force(const Element& q, const T* lambda, Tangent& forces) const {
+    inlined<T>([&] {
+      forces.resize(group().size());
+      put_constraint_force(Seen(*this, q), lambda, forces);
+    });
+  }
+  void put_step_residual(const T& t, const T& h, const Element& q, const Tangent& v, const Tangent& w,
+                         const T* lambda, T* r, T* rates) const {
+    inlined<T>([&] {
+      const Eigen::Index size = v.size();
+      // No velocity is asked for by gravity, the first of the effects.
+      static_assert(!Gravity::uses_velocity);
+      const Seen seen(*this, q, used_effects_ > 1 || rates != nullptr ? &v : nullptr);
+      Tangent applied(size), forces(size);
+      put_applied(t, seen, applied);
+      set_zero(forces);
       each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
-        Pair<T> pair = states(c.a, c.b, q, nullptr);
-        c.constraint.template add_wrenches<T>(pair.a, pair.b, c.template gathered<T>(lambda), pair.on_a,
-                                              pair.on_b);
-        add(c.a, pair.a, pair.on_a, forces);
-        add(c.b, pair.b, pair.on_b, forces);
+        add_constraint_force(c, seen, lambda, forces);
+        c.scatter(residual(c, t, seen) / h, r + size);
+        if (rates != nullptr) c.scatter(rate(c, t, seen, true), rates);
       });
-      return forces;
+      Eigen::Map<Eigen::Matrix<T, Eigen::Dynamic, 1>> rows(r, size);
+      for (const Body<T>& body : model_->bodies) body.put_equation(h, w, v, forces, applied, rows);
     });
   }
 
@@ -219,16 +233,54 @@ class SceneSystem {
     RigidState<U> a, b;
     Wrench<U> on_a = Wrench<U>::zero(), on_b = Wrench<U>::zero();
   };
+  using Gravity = decltype(std::tuple_element_t<0, SceneEffects<T>>::value_type::effect);
   template <class U>
   using Block = Eigen::Matrix<U, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
+  // The states of the bodies at a point, -1 that of the ground: of few bodies read once, of many where they are asked for.
+  class Seen {
+   public:
+    Seen(const SceneSystem& system, const Element& q, const Tangent* v = nullptr)
+        : system_(system), q_(q), v_(v) {
+      if constexpr (few)
+        for (std::size_t i = 0; i < system.model_->bodies.size(); ++i)
+          read(system.model_->bodies[i], q, v, states_[i]);
+    }
+    decltype(auto) operator()(int body) const {
+      if constexpr (few)
+        return (body < 0 ? system_.model_->ground : states_[std::size_t(body)]);
+      else
+        return system_.state(body, q_, v_);
+    }
+    const State& ground() const { return system_.model_->ground; }
+
+   private:
+    static constexpr bool few = most_bodies != Eigen::Dynamic;
+    const SceneSystem& system_;
+    const Element& q_;
+    const Tangent* v_;
+    std::array<State, std::size_t(few ? most_bodies : 0)> states_;
+  };
+
   template <class Visitor>
   void each_effect(const Visitor& visit) const {
-    std::apply([&](const auto&... lists) { (visit_all(lists, visit), ...); }, model_->effects);
+    visit_lists(model_->effects, used_effects_, visit);
   }
   template <class Visitor>
   void each_constraint(const Visitor& visit) const {
-    std::apply([&](const auto&... lists) { (visit_all(lists, visit), ...); }, model_->constraints);
+    visit_lists(model_->constraints, used_constraints_, visit);
+  }
+  // How many lists there are up to the last that is not empty.
+  template <class Lists>
+  static int used_lists(const Lists& lists) {
+    int used = 0, i = 0;
+    std::apply([&](const auto&... list) { ((++i, used = list.empty() ? used : i), ...); }, lists);
+    return used;
+  }
+  template <class Lists, class Visitor>
+  static void visit_lists(const Lists& lists, int used, const Visitor& visit) {
+    std::apply([&](const auto&... list) { (void)((used-- > 0 && (visit_all(list, visit), true)) && ...); },
+               lists);
   }
   template <class List, class Visitor>
   static void visit_all(const List& list, const Visitor& visit) {
@@ -237,9 +289,12 @@ class SceneSystem {
 
   static State state(const Body<T>& body, const Element& q, const Tangent* v) {
     State s;
+    read(body, q, v, s);
+    return s;
+  }
+  static void read(const Body<T>& body, const Element& q, const Tangent* v, State& s) {
     body.read_pose(q, s);
     if (v != nullptr) body.read_velocity(*v, s);
-    return s;
   }
   State state(int body, const Element& q, const Tangent* v) const {
     return body < 0 ? State::ground() : state(model_->bodies[std::size_t(body)], q, v);
@@ -256,13 +311,81 @@ class SceneSystem {
   void add(int body, const State& s, const Wrench<T>& wrench, Tangent& forces) const {
     if (body >= 0) model_->bodies[std::size_t(body)].add(s, wrench, forces);
   }
+  static void set_zero(Tangent& x) {
+    each_entry(x.size(), [&](Eigen::Index i) { x(i) = T(0.0); });
+  }
+  void put_force(const T& t, const Seen& seen, const Tangent& v, Tangent& g) const {
+    put_applied(t, seen, g);
+    each_entry(g.size(), [&](Eigen::Index i) { g(i) = -g(i); });
+    for (const Body<T>& body : model_->bodies)
+      if (body.has_inertial_forces()) body.add_inertial(v, g);
+  }
+  void put_applied(const T& t, const Seen& seen, Tangent& g) const {
+    set_zero(g);
+    each_effect([&](const auto& placed) {
+      const auto& effect = placed.effect;
+      using Effect = std::remove_cvref_t<decltype(effect)>;
+      Wrench<T> on_a = Wrench<T>::zero(), on_b = on_a;
+      if constexpr (!Effect::two_bodies && !Effect::uses_pose && !Effect::uses_velocity)
+        if (plain(placed.a)) {
+          // Neither the effect nor what its force is for the velocities depends on the state.
+          effect.template add_wrenches<T>(t, seen.ground(), seen.ground(), on_a, on_b);
+          return add(placed.a, seen.ground(), on_a, g);
+        }
+      const State &a = seen(placed.a), &b = seen(placed.b);
+      effect.template add_wrenches<T>(t, a, b, on_a, on_b);
+      add(placed.a, a, on_a, g);
+      if constexpr (Effect::two_bodies) add(placed.b, b, on_b, g);
+    });
+  }
+  // A joint to the ground that does not need its state. What counts takes the long way, so that its counts stay.
+  template <class C>
+  static bool on_ground(const PlacedConstraint<C>& c) {
+    if constexpr (!std::is_same_v<T, double>) return false;
+    return c.a < 0 && c.b >= 0;
+  }
+  template <class C>
+  void add_constraint_force(const PlacedConstraint<C>& c, const Seen& seen, const T* lambda,
+                            Tangent& forces) const {
+    const auto own = c.gathered(lambda);
+    const State& b = seen(c.b);
+    if constexpr (requires { c.constraint.wrench_on_ground(b, own); })
+      if (on_ground(c)) return add(c.b, b, c.constraint.wrench_on_ground(b, own), forces);
+    const State& a = seen(c.a);
+    Wrench<T> on_a = Wrench<T>::zero(), on_b = on_a;
+    c.constraint.template add_wrenches<T>(a, b, own, on_a, on_b);
+    add(c.a, a, on_a, forces);
+    add(c.b, b, on_b, forces);
+  }
+  template <class C>
+  Eigen::Matrix<T, C::rows, 1> residual(const PlacedConstraint<C>& c, const T& t, const Seen& seen) const {
+    const State& b = seen(c.b);
+    if constexpr (requires { c.constraint.residual_on_ground(b); })
+      if (on_ground(c)) return c.constraint.residual_on_ground(b);
+    return c.constraint.template residual<T>(t, seen(c.a), b);
+  }
+  void put_constraint_force(const Seen& seen, const T* lambda, Tangent& forces) const {
+    set_zero(forces);
+    each_constraint([&](const auto& c) { add_constraint_force(c, seen, lambda, forces); });
+  }
+  void put_constraint(const T& t, const Seen& seen, T* phi) const {
+    each_constraint([&](const auto& c) { c.scatter(residual(c, t, seen), phi); });
+  }
+  template <class C>
+  Eigen::Matrix<T, C::rows, 1> rate(const PlacedConstraint<C>& c, const T& t, const Seen& seen,
+                                    bool moving) const {
+    const State& b = seen(c.b);
+    if constexpr (requires { c.constraint.rate_on_ground(b); })
+      if (on_ground(c)) return c.constraint.rate_on_ground(b);
+    return c.constraint.template rate<T>(t, seen(c.a), b, moving);
+  }
+  void put_rate(const T& t, const Seen& seen, bool moving, T* r) const {
+    each_constraint([&](const auto& c) { c.scatter(rate(c, t, seen, moving), r); });
+  }
   Multipliers rate(const T& t, const Element& q, const Tangent& v, bool moving) const {
     return inlined<T>([&]() -> Multipliers {
       Multipliers r(multipliers());
-      each_constraint([&]<class C>(const PlacedConstraint<C>& c) {
-        const Pair<T> pair = states(c.a, c.b, q, &v);
-        c.scatter(c.constraint.template rate<T>(t, pair.a, pair.b, moving), r);
-      });
+      put_rate(t, Seen(*this, q, &v), moving, r.data());
       return r;
     });
   }
@@ -314,9 +437,12 @@ class SceneSystem {
   }
 
   // The row r of a constraint in (x, theta) of its bodies: the wrenches of a unit multiplier.
+  struct Wrenches {
+    Wrench<T> on_a, on_b;
+  };
   template <class C>
-  static Pair<T> gradient_row(const PlacedConstraint<C>& c, const Pair<T>& pair, int r) {
-    Pair<T> result = pair;
+  static Wrenches gradient_row(const PlacedConstraint<C>& c, const Pair<T>& pair, int r) {
+    Wrenches result{pair.on_a, pair.on_b};
     Eigen::Matrix<T, C::rows, 1> unit = Eigen::Matrix<T, C::rows, 1>::Constant(T(0.0));
     unit(r) = T(1.0);
     c.constraint.template add_wrenches<T>(pair.a, pair.b, unit, result.on_a, result.on_b);
@@ -332,11 +458,14 @@ class SceneSystem {
     for (int r = 0; r < C::rows; ++r) {
       const Eigen::Index row = c.row[std::size_t(r)];
       if (row < 0) continue;
-      const Pair<T> unit = gradient_row(c, pair, r);
+      const Wrenches unit = gradient_row(c, pair, r);
       const auto piece = [&](int i, const State& s, const Wrench<T>& w) {
         if (i < 0) return;
         const Body<T>& body = model_->bodies[std::size_t(i)];
-        sink.gradient(row, i, body.plain() ? Block<T>(row_of(w)) : Block<T>(row_of(w) * body.motion(s)));
+        if (body.plain())
+          sink.gradient(row, i, row_of(w));
+        else
+          sink.gradient(row, i, Block<T>(row_of(w) * body.motion(s)));
       };
       piece(c.a, pair.a, unit.on_a);
       piece(c.b, pair.b, unit.on_b);
@@ -357,7 +486,7 @@ class SceneSystem {
   template <class C, class Sink>
   void turning_pieces(const PlacedConstraint<C>& c, const Pair<T>& pair, const Multipliers& lambda,
                       Sink& sink) const {
-    const auto own = c.template gathered<T>(lambda);
+    const auto own = c.gathered(lambda.data());
     Pair<T> forces = pair;
     c.constraint.template add_wrenches<T>(pair.a, pair.b, own, forces.on_a, forces.on_b);
     const auto [turn_a, turn_b] = c.constraint.turning_stiffness(pair.a, pair.b, own);
@@ -379,7 +508,13 @@ class SceneSystem {
           if (row < 0) continue;
           Eigen::Matrix<T, 1, 6> direct = Eigen::Matrix<T, 1, 6>::Constant(T(0.0));
           direct.template tail<3>() = rate.row(r);
-          const Pair<T> unit = gradient_row(c, pair, r);
+          if (std::is_same_v<T, double> && body.plain()) {
+            // motion(s) is the identity, and motion_derivative(s) zero. What counts
+            // takes the long way.
+            sink.rate_gradient(row, i, direct);
+            continue;
+          }
+          const Wrenches unit = gradient_row(c, pair, r);
           sink.rate_gradient(row, i,
                              Block<T>(direct * body.motion(s) +
                                       row_of(first ? unit.on_a : unit.on_b) * body.motion_derivative(s)));
@@ -392,7 +527,7 @@ class SceneSystem {
   template <class C, class Sink>
   void jet_pieces(const PlacedConstraint<C>& c, const Pair<T>& pair, const T& t, const Multipliers& lambda,
                   Sink& sink) const {
-    const auto own = c.template gathered<T>(lambda);
+    const auto own = c.gathered(lambda.data());
     Pair<T> forces = pair;
     c.constraint.template add_wrenches<T>(pair.a, pair.b, own, forces.on_a, forces.on_b);
     const ConstraintDerivatives<C, T> D = constraint_derivatives(c.constraint, t, pair.a, pair.b, own);
@@ -407,7 +542,7 @@ class SceneSystem {
       for (int r = 0; r < C::rows; ++r) {
         const Eigen::Index row = c.row[std::size_t(r)];
         if (row < 0) continue;
-        const Pair<T> unit = gradient_row(c, pair, r);
+        const Wrenches unit = gradient_row(c, pair, r);
         for (std::size_t i = 0; i < 2; ++i) {
           if (bodies[i] < 0) continue;
           // The velocities (x', Omega) move with q, too.
@@ -421,6 +556,8 @@ class SceneSystem {
   }
 
   std::shared_ptr<const SceneModel<T>> model_;
+  Eigen::Index size_;  // of the velocities
+  int used_effects_, used_constraints_;
 };
 
 }  // namespace liebench

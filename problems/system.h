@@ -73,6 +73,24 @@ concept DenseSystem = MechanicalSystem<S> && LieGroup<typename S::Group> &&
 
 inline constexpr int run_time_size = Eigen::Dynamic;
 
+// A system of a size known at run time that writes its vectors where they belong, all of a point in one go; lambda and r are
+// consecutive numbers:
+//
+//   group().put_motion(q_n, step, motion, q)      motion = exp(step), q = q_n o motion
+//   put_step_residual(t, h, q, v, w, lambda, r, rate)
+//                                                 r = (M w + h g(t, q, v) + B(q)^T lambda, Phi(t, q) / h);
+//                                                 rate = B(q) v + Phi_t, unless it is null
+//   put_constraint_force(q, lambda, f)            f = B(q)^T lambda
+template <class S>
+concept InPlaceSystem = MechanicalSystem<S> && SizedLieGroup<typename S::Group> &&
+    requires(const S& s, const typename S::Scalar& t, const typename S::Group::Element& q,
+             typename S::Group::Element& to, const typename S::Group::Tangent& v,
+             typename S::Group::Tangent& f, const typename S::Scalar* lambda, typename S::Scalar* r) {
+  s.group().put_motion(q, v, to, to);
+  s.put_step_residual(t, t, q, v, v, lambda, r, r);
+  s.put_constraint_force(q, lambda, f);
+};
+
 // The most multipliers that a system can have, where their number is known at run time only.
 template <class S>
 constexpr int most_multipliers() {

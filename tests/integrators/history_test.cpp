@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "groups/extended.h"
 
@@ -38,6 +39,28 @@ TEST(History, ElementsCanBeChanged) {
   EXPECT_EQ(history[0], Vector(4, 0));
   EXPECT_EQ(history[1], Vector(3, 7));
   EXPECT_EQ(history[2], Vector(2, 0));
+}
+
+// A ring, for any size; sums go by threes, and for six without a loop.
+TEST(History, OfRunTimeSizeIsTheSameAsOfFixedSize) {
+  const auto expect_same = []<int n>(std::integral_constant<int, n>) {
+    using Fixed = Eigen::Matrix<double, n, 1>;
+    History<Fixed, 5> fixed(4);
+    History<Eigen::VectorXd, 5> ring(4, Eigen::VectorXd::Zero(n));
+    for (int step = 1; step < 12; ++step) {
+      Fixed value;
+      for (int i = 0; i < n; ++i) value(i) = std::sin(1.0 + step * (i + 1));
+      fixed.push(value);
+      ring.push(value);
+      ASSERT_EQ(ring.size(), fixed.size());
+      for (int i = 0; i < 4; ++i) EXPECT_EQ(Fixed(ring[i]), fixed[i]) << n << ' ' << step;
+      EXPECT_EQ(Fixed(ring.extrapolated()), fixed.extrapolated()) << n << ' ' << step;
+    }
+  };
+  expect_same(std::integral_constant<int, 1>());
+  expect_same(std::integral_constant<int, 3>());
+  expect_same(std::integral_constant<int, 6>());
+  expect_same(std::integral_constant<int, 11>());
 }
 
 // Integers: every operation is exact.
