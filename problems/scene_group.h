@@ -70,7 +70,6 @@ class SceneGroup {
   // motion = exp(step), q = q_n o motion
   void put_motion(const Element& q_n, const Tangent& step, Element& motion, Element& q) const {
     inlined<T>([&] {
-      count(&GroupCalls::exp);
       motion.resize(q_n.size());
       q.resize(q_n.size());
       each([&]<class G>(G, const Body<T>& b) {

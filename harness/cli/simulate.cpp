@@ -105,8 +105,11 @@ void run_simulation(const SimulateOptions& options) {
   });
   if (std::fflush(file) != 0) throw MachineError(options.out + ": cannot write");
   if (failure)
-    progress.message(
-        fmt::format("stopped at t = {:.6g} s, step {}: {}", failure->time, failure->step, failure->message));
+    progress.message(fmt::format("stopped at t = {:.6g} s, step {}: {}{}", failure->time, failure->step,
+                                 failure->message,
+                                 std::visit([](const auto& method) { return method.safeguard; }, plan.method)
+                                     ? ""
+                                     : "; --option safeguard=true may help"));
 }
 
 }  // namespace
