@@ -33,6 +33,12 @@ std::string form_words(const std::string& form) {
   return form == "index3" ? "index 3" : form == "stabilized_index2" ? "stabilized" : "free";
 }
 
+std::string form_title(const std::string& form) {
+  return form == "index3"              ? "Index 3"
+         : form == "stabilized_index2" ? "Stabilized index 2"
+                                       : "Without constraints";
+}
+
 struct Worst {
   std::optional<Verdict> verdict;
   const Json* record = nullptr;  // of the worst trial
@@ -186,15 +192,12 @@ HeatMap stability_map(const std::vector<Json>& records) {
   return map;
 }
 
-Table stability_matrix(const std::vector<Json>& records, const std::string& form) {
+Table stability_matrix(const std::vector<Json>& records, const std::string& form, bool captioned) {
   const VerdictMatrix matrix(records);
   std::vector<Column> columns{{.header = "method"}};
   for (const auto& [entry, of] : matrix.columns)
     if (of == form) columns.push_back({.header = std::string(entry->title)});
-  Table table(form.empty()       ? "Without constraints"
-              : form == "index3" ? "Index 3"
-                                 : "Stabilized index 2",
-              columns);
+  Table table(captioned ? form_title(form) : "", columns);
   for (const std::string& subject : matrix.subjects) {
     Row row{subject};
     bool anything = false;
@@ -282,9 +285,8 @@ std::string stability_report(const std::vector<Json>& records) {
       "[stability.md](../docs/stability.md) let expect.\n",
       records.size(), summary_of(records));
   for (const char* form : {"", "index3", "stabilized_index2"}) {
-    const Table matrix = stability_matrix(records, form);
-    if (!matrix.rows().empty())
-      text += fmt::format("\n## {}\n\n{}", matrix.caption(), to_markdown(Table(matrix)));
+    const Table matrix = stability_matrix(records, form, false);
+    if (!matrix.rows().empty()) text += fmt::format("\n## {}\n\n{}", form_title(form), to_markdown(matrix));
   }
   text += safeguard_section(records);
   text +=

@@ -19,7 +19,7 @@ bool plain(const Json& record);
 HeatMap stability_map(const std::vector<Json>& records);
 
 // The picture's matrix in words for one form ("" unconstrained); and every trial that did not simply pass.
-Table stability_matrix(const std::vector<Json>& records, const std::string& form);
+Table stability_matrix(const std::vector<Json>& records, const std::string& form, bool captioned = true);
 Table stability_trials(const std::vector<Json>& records);
 // All trials, with what was measured.
 Table stability_list(const std::vector<Json>& records);

@@ -50,12 +50,15 @@ Finding examine(const Contestant& method, double angle) {
   const bool exact = method.is("faltinsen_bdf") && method.options.choice("variant") == "exact";
   const double logarithm = angle * (exact ? std::max(1, method.steps() - 1) : 1);
   finding.what = "wobble, times the first";
+  if (angle >= std::numbers::pi) {
+    // No method can: to say so is to survive, with any other outcome it does not.
+    finding.grade = finding.outcome == Outcome::rotation_too_large ? Grade::survived : Grade::failed;
+    finding.reason = "no step turns by pi or more: rotation_too_large is the answer";
+    return finding;
+  }
   if (logarithm >= std::numbers::pi) {
     finding.expected = Grade::failed;
-    finding.reason = "a logarithm turns by pi or more: rotation_too_large";
-    // Another outcome than that one is a surprise.
-    if (finding.grade == Grade::failed && finding.outcome != Outcome::rotation_too_large)
-      finding.grade = Grade::degraded;
+    finding.reason = "its logarithms span k - 1 steps, which turn by pi or more";
     return finding;
   }
   if (method.is("faltinsen_bdf") && !exact && method.steps() >= 3) {
@@ -111,7 +114,7 @@ StabilityCase large_rotations() {
       .criterion =
           "survived: the wobble of a free symmetric body is within a factor of 2 after 400 steps; degraded: "
           "damped by more; "
-          "failed: grown by more, or ended. Beyond pi only rotation_too_large will do",
+          "failed: grown by more, or ended. From pi on: survived where the outcome is rotation_too_large",
       .theory =
           "the method on w' = i lambda w, which does not see the rotation itself; logarithms of less than pi",
       .trials = large_rotations_case::trials};

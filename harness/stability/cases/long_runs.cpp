@@ -84,10 +84,11 @@ Finding examine(const Motion& motion, const Contestant& method, const std::strin
     finding.grade = Grade::failed;
     finding.what = "memory grows";
   }
-  if (finding.grade == Grade::failed) {
-    finding.expected = Grade::survived;
-    return finding;
+  if (weakly_unstable(method, form)) {
+    finding.at_worst = Grade::failed;
+    finding.reason = "rho_inf = 1: the multipliers of the index-3 form are weakly unstable";
   }
+  if (finding.grade == Grade::failed) return finding;
   const double n = double(steps);
   const GrowthLaw energy_law = growth_law(energy, eps * kinetic);
   finding.measured["energy"] = energy_law.largest / kinetic;
@@ -116,9 +117,10 @@ Finding examine(const Motion& motion, const Contestant& method, const std::strin
       -2.0 * n * std::log(spectral_radius(method, {0.0, motion.step_size * motion.frequency}));
   finding.measured["predicted_energy"] = std::abs(damping);
   finding.expected = std::abs(damping) > visible ? Grade::degraded : Grade::survived;
-  finding.reason =
-      fmt::format("a mode of {} rad/s keeps exp({:.2g}) of its energy over {:.0e} steps by the linear theory",
-                  motion.frequency, -damping, n);
+  if (!weakly_unstable(method, form))
+    finding.reason = fmt::format(
+        "a mode of {} rad/s keeps exp({:.2g}) of its energy over {:.0e} steps by the linear theory",
+        motion.frequency, -damping, n);
   return finding;
 }
 
