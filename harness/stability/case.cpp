@@ -63,10 +63,7 @@ Verdict worst(Verdict a, Verdict b) {
   return rank(a) < rank(b) ? b : a;
 }
 
-std::vector<Trial> trials_of(
-    const std::vector<std::string>& forms,
-    const std::function<std::optional<Trial>(const Contestant&, const std::string&)>& make) {
-  std::vector<Trial> trials;
+void add_trials(std::vector<Trial>& trials, const std::vector<std::string>& forms, const TrialMaker& make) {
   for (const bool safeguard : {true, false})
     for (const Contestant& contestant : contestants(safeguard))
       for (const std::string& form : forms)
@@ -78,7 +75,6 @@ std::vector<Trial> trials_of(
           trial->form = form;
           trials.push_back(std::move(*trial));
         }
-  return trials;
 }
 
 bool weakly_unstable(const Contestant& method, const std::string& form) {

@@ -70,10 +70,10 @@ struct StabilityCase {
   std::vector<Trial> (*trials)();
 };
 
-// One trial for each contestant, with the safeguard and without, and each of the forms; `make(contestant, form)` gives it, or nothing where it does not apply.
-std::vector<Trial> trials_of(
-    const std::vector<std::string>& forms,
-    const std::function<std::optional<Trial>(const Contestant&, const std::string&)>& make);
+// The trial of one method in one form, or nothing where it does not apply.
+using TrialMaker = std::function<std::optional<Trial>(const Contestant&, const std::string& form)>;
+// Adds one trial for each contestant, with the safeguard and, where it is quick, without, and each of the forms.
+void add_trials(std::vector<Trial>& trials, const std::vector<std::string>& forms, const TrialMaker& make);
 inline const std::vector<std::string> constrained_forms{"index3", "stabilized_index2"};
 inline const std::vector<std::string> unconstrained{""};
 

@@ -124,16 +124,15 @@ Finding examine(const Plan& plan, const Contestant& method, const std::string& f
 std::vector<Trial> trials() {
   std::vector<Trial> all;
   const auto add = [&](const std::string& variant, const Plan& plan) {
-    for (Trial& trial : trials_of(
-             constrained_forms, [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
-               Trial t;
-               t.variant = variant;
-               t.parameters = {{"fault", variant}, {"size", plan.size}};
-               t.work = 4.0;
-               t.run = [=, &method] { return examine(plan, method, form); };
-               return t;
-             }))
-      all.push_back(std::move(trial));
+    const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+      Trial t;
+      t.variant = variant;
+      t.parameters = {{"fault", variant}, {"size", plan.size}};
+      t.work = 4.0;
+      t.run = [=, &method] { return examine(plan, method, form); };
+      return t;
+    };
+    add_trials(all, constrained_forms, make);
   };
   for (const double size : {1e-6, 1e-3, 1e-1})
     add(fmt::format("position off by {} m", size), {Fault::position, size});

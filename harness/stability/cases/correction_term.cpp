@@ -75,22 +75,21 @@ Finding examine(const Contestant& method, const std::string& form, double angle,
 
 std::vector<Trial> trials() {
   std::vector<Trial> all;
-  for (const double part : {0.8, 1.25})
-    for (Trial& trial : trials_of(
-             constrained_forms, [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
-               if (method.correction().empty() || !method.is("bliedf2nd")) return std::nullopt;
-               const double bound =
-                   correction_stability_bound(method.steps(), method.correction() == "implicit");
-               const double angle = part * bound;
-               // Steps that turn by pi are no case for it.
-               if (angle > 3.0) return std::nullopt;
-               Trial t;
-               t.variant = fmt::format("h |v| = {:.4g}, {} of the bound", angle, part);
-               t.parameters = {{"part", part}, {"angle", angle}};
-               t.run = [=, &method] { return examine(method, form, angle, bound); };
-               return t;
-             }))
-      all.push_back(std::move(trial));
+  for (const double part : {0.8, 1.25}) {
+    const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+      if (method.correction().empty() || !method.is("bliedf2nd")) return std::nullopt;
+      const double bound = correction_stability_bound(method.steps(), method.correction() == "implicit");
+      const double angle = part * bound;
+      // Steps that turn by pi are no case for it.
+      if (angle > 3.0) return std::nullopt;
+      Trial t;
+      t.variant = fmt::format("h |v| = {:.4g}, {} of the bound", angle, part);
+      t.parameters = {{"part", part}, {"angle", angle}};
+      t.run = [=, &method] { return examine(method, form, angle, bound); };
+      return t;
+    };
+    add_trials(all, constrained_forms, make);
+  }
   return all;
 }
 

@@ -77,17 +77,17 @@ std::vector<Trial> trials() {
       {"infinity half-way", 1e-3, 100, "t < 0.05 ? 1 : 1/0", false, "no step can be taken there"},
   };
   std::vector<Trial> all;
-  for (const Plan& plan : plans)
-    for (Trial& trial : trials_of(
-             constrained_forms, [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
-               Trial t;
-               t.variant = plan.variant;
-               t.parameters = {{"run", plan.variant}, {"step_size", plan.step_size}, {"steps", plan.steps}};
-               t.work = 0.5;
-               t.run = [&plan, &method, form] { return examine(plan, method, form); };
-               return t;
-             }))
-      all.push_back(std::move(trial));
+  for (const Plan& plan : plans) {
+    const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+      Trial t;
+      t.variant = plan.variant;
+      t.parameters = {{"run", plan.variant}, {"step_size", plan.step_size}, {"steps", plan.steps}};
+      t.work = 0.5;
+      t.run = [&plan, &method, form] { return examine(plan, method, form); };
+      return t;
+    };
+    add_trials(all, constrained_forms, make);
+  }
   return all;
 }
 

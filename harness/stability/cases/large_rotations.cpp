@@ -89,16 +89,16 @@ Finding examine(const Contestant& method, double angle) {
 
 std::vector<Trial> trials() {
   std::vector<Trial> all;
-  for (const double angle : {0.5, 1.0, 2.0, 3.0, std::numbers::pi, 4.0})
-    for (Trial& trial :
-         trials_of(unconstrained, [&](const Contestant&method, const std::string&) -> std::optional<Trial> {
-           Trial t;
-           t.variant = fmt::format("h |Omega| = {:.3g}", angle);
-           t.parameters = {{"angle", angle}};
-           t.run = [=, &method] { return examine(method, angle); };
-           return t;
-         }))
-      all.push_back(std::move(trial));
+  for (const double angle : {0.5, 1.0, 2.0, 3.0, std::numbers::pi, 4.0}) {
+    const TrialMaker make = [&](const Contestant& method, const std::string&) -> std::optional<Trial> {
+      Trial t;
+      t.variant = fmt::format("h |Omega| = {:.3g}", angle);
+      t.parameters = {{"angle", angle}};
+      t.run = [=, &method] { return examine(method, angle); };
+      return t;
+    };
+    add_trials(all, unconstrained, make);
+  }
   return all;
 }
 

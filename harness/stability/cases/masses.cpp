@@ -119,16 +119,17 @@ std::vector<Trial> trials() {
   std::vector<Trial> all;
   const auto add = [&](const std::string& variant, const Plan& made) {
     const auto plan = std::make_shared<const Plan>(made);
-    for (Trial& trial : trials_of(
-             constrained_forms, [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
-               Trial t;
-               t.variant = variant;
-               t.parameters = {{"scene", variant}, {"step_size", plan->step_size}, {"steps", plan->steps}};
-               t.work = 3.0 * double(plan->steps) / 1000.0;
-               t.run = [=, &method] { return examine(*plan, method, form); };
-               return t;
-             }))
-      all.push_back(std::move(trial));
+    {
+      const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+        Trial t;
+        t.variant = variant;
+        t.parameters = {{"scene", variant}, {"step_size", plan->step_size}, {"steps", plan->steps}};
+        t.work = 3.0 * double(plan->steps) / 1000.0;
+        t.run = [=, &method] { return examine(*plan, method, form); };
+        return t;
+      };
+      add_trials(all, constrained_forms, make);
+    }
   };
   for (const double ratio : {1e3, 1e6, 1e9})
     add(fmt::format("chain, last mass x {:.0e}", ratio), heavy_end(ratio));

@@ -121,16 +121,15 @@ std::vector<Trial> trials() {
   std::vector<Trial> all;
   const auto add = [&](const std::string& variant, const std::vector<std::string>& forms, double value,
                        Finding (*examine)(const Contestant&, const std::string&, double)) {
-    for (Trial& trial :
-         trials_of(forms, [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
-           Trial t;
-           t.variant = variant;
-           t.parameters = {{"force", variant}, {"step_size", h}};
-           t.work = 4.0;
-           t.run = [=, &method] { return examine(method, form, value); };
-           return t;
-         }))
-      all.push_back(std::move(trial));
+    const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+      Trial t;
+      t.variant = variant;
+      t.parameters = {{"force", variant}, {"step_size", h}};
+      t.work = 4.0;
+      t.run = [=, &method] { return examine(method, form, value); };
+      return t;
+    };
+    add_trials(all, forms, make);
   };
   for (const double slip : {1e-1, 1e-3, 1e-5, 1e-8})
     add(fmt::format("friction, slip velocity {} rad/s", slip), constrained_forms, slip, friction);

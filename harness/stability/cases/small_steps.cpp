@@ -90,17 +90,17 @@ Finding examine(const Contestant& method, const std::string& form, double h) {
 
 std::vector<Trial> trials() {
   std::vector<Trial> all;
-  for (const double h : {1e-5, 1e-6, 1e-7})
-    for (Trial& trial : trials_of(
-             constrained_forms, [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
-               Trial t;
-               t.variant = fmt::format("h = {:.0e} s", h);
-               t.parameters = {{"step_size", h}};
-               t.work = 3.0;
-               t.run = [=, &method] { return examine(method, form, h); };
-               return t;
-             }))
-      all.push_back(std::move(trial));
+  for (const double h : {1e-5, 1e-6, 1e-7}) {
+    const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+      Trial t;
+      t.variant = fmt::format("h = {:.0e} s", h);
+      t.parameters = {{"step_size", h}};
+      t.work = 3.0;
+      t.run = [=, &method] { return examine(method, form, h); };
+      return t;
+    };
+    add_trials(all, constrained_forms, make);
+  }
   return all;
 }
 

@@ -123,18 +123,18 @@ std::vector<Trial> trials() {
   const std::vector<Damping> dampings{
       {0.0, "undamped"}, {0.01, "lightly damped"}, {1.0, "critically damped"}};
   for (const double stiffness : {1e2, 1e4, 1e6, 1e8, 1e10, 1e12})
-    for (const Damping& damped : dampings)
-      for (Trial& trial :
-           trials_of(forms, [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
-             const double damping = 2.0 * damped.ratio * std::sqrt(stiffness * moment);
-             Trial t;
-             t.variant = fmt::format("{:.0e} N m/rad, {}", stiffness, damped.words);
-             t.parameters = {{"stiffness", stiffness}, {"damping_ratio", damped.ratio}};
-             t.quick = damped.ratio != 0.01;
-             t.run = [=, &method] { return examine(method, form, stiffness, damping, false); };
-             return t;
-           }))
-        all.push_back(std::move(trial));
+    for (const Damping& damped : dampings) {
+      const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+        const double damping = 2.0 * damped.ratio * std::sqrt(stiffness * moment);
+        Trial t;
+        t.variant = fmt::format("{:.0e} N m/rad, {}", stiffness, damped.words);
+        t.parameters = {{"stiffness", stiffness}, {"damping_ratio", damped.ratio}};
+        t.quick = damped.ratio != 0.01;
+        t.run = [=, &method] { return examine(method, form, stiffness, damping, false); };
+        return t;
+      };
+      add_trials(all, forms, make);
+    }
   return all;
 }
 

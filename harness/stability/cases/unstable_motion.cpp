@@ -170,18 +170,18 @@ std::vector<Trial> trials() {
   std::vector<Trial> all;
   for (std::size_t number = 0; number < motions().size(); ++number) {
     const Motion& motion = motions()[number];
-    for (Trial& trial :
-         trials_of(motion.constrained ? constrained_forms : unconstrained,
-                   [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
-                     Trial t;
-                     t.variant = motion.name;
-                     t.parameters = {{"motion", motion.name}, {"step_size", h}, {"t_end", motion.t_end}};
-                     t.quick = number == 0;
-                     t.work = 3.0 * motion.t_end / h / 1000.0;
-                     t.run = [=, &method] { return examine(number, method, form); };
-                     return t;
-                   }))
-      all.push_back(std::move(trial));
+    {
+      const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+        Trial t;
+        t.variant = motion.name;
+        t.parameters = {{"motion", motion.name}, {"step_size", h}, {"t_end", motion.t_end}};
+        t.quick = number == 0;
+        t.work = 3.0 * motion.t_end / h / 1000.0;
+        t.run = [=, &method] { return examine(number, method, form); };
+        return t;
+      };
+      add_trials(all, motion.constrained ? constrained_forms : unconstrained, make);
+    }
   }
   return all;
 }
