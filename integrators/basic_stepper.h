@@ -79,7 +79,8 @@ class BasicStepper {
   }
 
   // Damped, from the last multipliers and the increment that the method expects of an undisturbed motion (d = 0), or none at all (a stiff
-  // spring that was not at rest). False where both fail.
+  // spring that was not at rest). False where both fail, and where the increment is half a turn and more away from h v_n: a constraint
+  // that is fulfilled by it is fulfilled by one of a turn less, too.
   template <class Closure>
   [[gnu::noinline, gnu::cold]] bool solve_again(const T& t, const Closure& closure,
                                                 typename Kernel::Unknowns& z, Point& point) {
@@ -89,7 +90,7 @@ class BasicStepper {
       if (at_rest) Equation::change(z, system()) = -closure.base();
       if constexpr (l != 0) Equation::scaled_lambda(z, system()) = h_ * lambda_;
       if (newton_.solve_damped(t, h_, q_, closure, z, point).outcome == Outcome::ok &&
-          turns_by_less_than_pi(point.step))
+          turns_by_less_than_pi(point.step) && turns_by_less_than_pi(point.step - h_ * velocity_))
         return true;
     }
     return false;

@@ -99,7 +99,7 @@ class NewtonKernel {
       }
       // Where the corrections have stopped to converge quadratically, rounding may be all that is left; smaller steps would creep.
       if (iteration > 1 && size > Linear(slowest_rate) * previous_size &&
-          (size <= Linear(floor) || at_rounding(t, h, q_n, d, z, point, r))) {
+          at_rounding(t, h, q_n, d, z, point, r)) {
         finish(iteration);
         return {};
       }
@@ -120,7 +120,7 @@ class NewtonKernel {
         continue;
       }
       residual_at(z);
-      if (at_floor(size, d, scale, largest_d) || at_rounding(t, h, q_n, d, z, point, r)) {
+      if (at_rounding(t, h, q_n, d, z, point, r)) {
         finish(iteration);
         return {};
       }

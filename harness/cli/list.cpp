@@ -73,7 +73,8 @@ void describe_method(const MethodInfo& method) {
       "In a study:\n  {{\"name\": \"{}\"",
       method.name);
   for (const OptionInfo& info : method.options)
-    if (info.scope == OptionScope::everywhere && !info.unsaid) fmt::print(", \"{}\": {}", info.name, default_text(info));
+    if (info.scope == OptionScope::everywhere && !info.unsaid)
+      fmt::print(", \"{}\": {}", info.name, default_text(info));
   fmt::print("}}\n");
 }
 
@@ -136,7 +137,7 @@ void describe_case(const StabilityCase& entry) {
 }
 
 void describe(const std::string& name) {
-  std::vector<std::string> names{"record", "study", "scene"};
+  std::vector<std::string> names{"record", "study", "scene", "stability"};
   if (std::find(names.begin(), names.end(), name) != names.end())
     return fmt::print("{}", embedded_file(name + ".schema.json"));
   for (const MethodInfo& method : methods()) {
@@ -175,9 +176,9 @@ void add_describe(CLI::App& app, int&) {
   CLI::App* command =
       app.add_subcommand("describe",
                          "Say what an integrator, a problem, an effect or a hard case is and what it "
-                         "takes; record, study, scene: the JSON schema");
+                         "takes; record, study, scene, stability: the JSON schema");
   auto name = std::make_shared<std::string>();
-  command->add_option("name", *name, "a name from `liebench list`, or record, study or scene")
+  command->add_option("name", *name, "a name from `liebench list`, or record, study, scene or stability")
       ->required()
       ->type_name("NAME");
   command->footer("Example:\n  liebench describe heavy_top");

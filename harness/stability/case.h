@@ -43,6 +43,8 @@ struct Finding {
   // How far from what survives, in the unit that `what` names: a factor of energy, an error, ...; absent where the run ended early.
   std::optional<double> amount;
   std::string what;
+  // Of two degraded trials the one with the larger severity is told of; the amount where it is not said.
+  std::optional<double> severity;
   std::string reason;  // why `expected`
   Outcome outcome = Outcome::ok;
   std::optional<RunFailure> failure;
@@ -55,6 +57,7 @@ struct Trial {
   std::string form;                        // "index3", "stabilized_index2", or empty: no constraints
   const Contestant* contestant = nullptr;  // null where it is a group that is tried
   std::string subject;                     // the row: the contestant's name, or the group's
+  bool modified_start = true;              // the option, where it means something
   Json parameters = Json::object();        // what sets it apart, for its key
   double work = 1.0;                       // about so many thousand steps
   bool quick = true;                       // of the fast half

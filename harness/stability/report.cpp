@@ -43,9 +43,13 @@ struct Worst {
   std::optional<Verdict> verdict;
   const Json* record = nullptr;  // of the worst trial
 
+  static double severity(const Json& r) {
+    return r.contains("severity") ? r.at("severity").get<double>() : r.value("amount", 0.0);
+  }
   void take(const Json& next) {
     const Verdict v = verdict_of(next);
-    if (!verdict || worst(*verdict, v) != *verdict) {
+    const bool worse = !verdict || worst(*verdict, v) != *verdict;
+    if (worse || (v == *verdict && severity(next) > severity(*record))) {
       verdict = v;
       record = &next;
     }
@@ -104,6 +108,10 @@ std::string words(Verdict v) {
 
 std::string family(const std::string& subject) {
   return subject.substr(0, subject.find_first_of(", "));
+}
+
+std::ptrdiff_t judged(const std::vector<Json>& records) {
+  return std::count_if(records.begin(), records.end(), [](const Json& r) { return !plain(r); });
 }
 
 std::string summary_of(const std::vector<Json>& records) {
@@ -252,7 +260,8 @@ Table stability_list(const std::vector<Json>& records) {
     if (record.contains("measured"))
       for (const auto& [key, value] : record.at("measured").items()) measures.insert(key);
   std::vector<Column> columns;
-  for (const char* header : {"case", "variant", "method", "form", "outcome", "grade", "expected", "verdict"})
+  for (const char* header :
+       {"case", "variant", "method", "form", "safeguard", "outcome", "grade", "expected", "verdict"})
     columns.push_back({.header = header});
   columns.push_back({.header = "amount", .kind = ColumnKind::number});
   columns.push_back({.header = "what"});
@@ -263,8 +272,10 @@ Table stability_list(const std::vector<Json>& records) {
     Row row;
     for (const char* key : {"case", "variant", "subject"}) row.push_back(record.at(key).get<std::string>());
     row.push_back(form_of_record(record));
-    for (const char* key : {"outcome", "grade", "expected", "verdict"})
-      row.push_back(record.at(key).get<std::string>());
+    row.push_back(std::string(!record.contains("integrator") ? "" : plain(record) ? "off" : "on"));
+    for (const char* key : {"outcome", "grade", "expected"}) row.push_back(record.at(key).get<std::string>());
+    // Those without the safeguard are judged by nobody.
+    row.push_back(plain(record) ? std::string() : record.at("verdict").get<std::string>());
     row.push_back(record.contains("amount") ? Cell(record.at("amount").get<double>()) : Cell());
     row.push_back(record.at("what").get<std::string>());
     for (const std::string& measure : measures)
@@ -279,11 +290,12 @@ Table stability_list(const std::vector<Json>& records) {
 std::string stability_report(const std::vector<Json>& records) {
   std::string text = fmt::format(
       "# Hard cases: what each method survives\n\n"
-      "Written by `liebench stability`; do not edit. {} trials: {}. A cell is the verdict of the worst trial "
+      "Written by `liebench stability`; do not edit. {} trials: {} (and as many again without the safeguard, "
+      "where short). A cell is the verdict of the worst trial "
       "of its "
       "case; \"fails, as theory says\" and \"degraded\" are what the derivations in "
       "[stability.md](../docs/stability.md) let expect.\n",
-      records.size(), summary_of(records));
+      judged(records), summary_of(records));
   for (const char* form : {"", "index3", "stabilized_index2"}) {
     const Table matrix = stability_matrix(records, form, false);
     if (!matrix.rows().empty()) text += fmt::format("\n## {}\n\n{}", form_title(form), to_markdown(matrix));
@@ -301,7 +313,7 @@ std::string stability_report(const std::vector<Json>& records) {
       if (record.at("case") == entry.name) own.push_back(record);
     if (own.empty()) continue;
     text += fmt::format("\n### {}\n\n{} {} trials: {}.\n\n- Criterion: {}.\n- Theory: {}.\n", entry.title,
-                        entry.question, own.size(), summary_of(own), entry.criterion, entry.theory);
+                        entry.question, judged(own), summary_of(own), entry.criterion, entry.theory);
     const Table table = stability_trials(own);
     if (!table.rows().empty()) text += "\n" + to_markdown(table);
   }
@@ -310,12 +322,26 @@ std::string stability_report(const std::vector<Json>& records) {
 
 Json parse_stability_record(std::string_view line, const std::string& place) {
   Json record = parse_json(line, place);
-  for (const char* key :
-       {"key", "case", "variant", "subject", "outcome", "grade", "expected", "verdict", "what", "reason"})
-    if (!record.is_object() || !record.contains(key) || !record[key].is_string())
-      throw InputError(place, fmt::format("is not a record of liebench stability: \"{}\" is missing", key));
-  if (record.value("schema", 0) != record_schema)
+  const auto refuse = [&](const char* key) {
+    throw InputError(
+        place,
+        fmt::format("is not a record of liebench stability: \"{}\" is missing or not as it should be", key));
+  };
+  if (!record.is_object()) refuse("key");
+  if (record.value("schema", Json()) != record_schema)
     throw InputError(place, fmt::format("this program reads record schema {}", record_schema));
+  for (const char* key : {"key", "case", "variant", "subject", "outcome", "what", "reason"})
+    if (!record.contains(key) || !record[key].is_string()) refuse(key);
+  const auto known = [](const Json& value, const auto& all) {
+    return std::any_of(all.begin(), all.end(), [&](const auto each) { return value == name(each); });
+  };
+  constexpr std::array grades{Grade::survived, Grade::degraded, Grade::failed};
+  for (const char* key : {"grade", "expected"})
+    if (!known(record.value(key, Json()), grades)) refuse(key);
+  if (!known(record.value("verdict", Json()), verdicts)) refuse("verdict");
+  if (record.contains("integrator") && !record.value("options", Json()).is_object()) refuse("options");
+  for (const char* key : {"amount", "severity"})
+    if (record.contains(key) && !record[key].is_number()) refuse(key);
   return record;
 }
 

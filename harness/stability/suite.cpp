@@ -32,8 +32,8 @@ Json input_of(const SuiteTrial& s) {
   j["form"] = s.trial.form;
   if (s.trial.contestant != nullptr) {
     j["integrator"] = s.trial.contestant->method->name;
-    j["options"] =
-        options_to_json(*s.trial.contestant->method, s.trial.contestant->options_for(s.trial.form));
+    j["options"] = options_to_json(*s.trial.contestant->method,
+                                   s.trial.contestant->options_for(s.trial.form, s.trial.modified_start));
   }
   return j;
 }
@@ -72,8 +72,8 @@ Json stability_record(const SuiteTrial& s, const Finding& finding, const Json& p
   if (!s.trial.form.empty()) j["form"] = s.trial.form;
   if (s.trial.contestant != nullptr) {
     j["integrator"] = s.trial.contestant->method->name;
-    j["options"] =
-        options_to_json(*s.trial.contestant->method, s.trial.contestant->options_for(s.trial.form));
+    j["options"] = options_to_json(*s.trial.contestant->method,
+                                   s.trial.contestant->options_for(s.trial.form, s.trial.modified_start));
   }
   j["parameters"] = s.trial.parameters;
   j["outcome"] = name(finding.outcome);
@@ -90,6 +90,7 @@ Json stability_record(const SuiteTrial& s, const Finding& finding, const Json& p
   if (finding.at_worst) j["at_worst"] = name(*finding.at_worst);
   j["verdict"] = name(verdict(finding.grade, finding.expected, finding.at_worst.value_or(finding.expected)));
   if (finding.amount && std::isfinite(*finding.amount)) j["amount"] = *finding.amount;
+  if (finding.severity && std::isfinite(*finding.severity)) j["severity"] = *finding.severity;
   j["what"] = finding.what;
   j["reason"] = finding.reason;
   for (const auto& [key, value] : finding.measured)

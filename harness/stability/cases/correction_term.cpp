@@ -83,6 +83,7 @@ std::vector<Trial> trials() {
       // Steps that turn by pi are no case for it.
       if (angle > 3.0) return std::nullopt;
       Trial t;
+      t.modified_start = false;
       t.variant = fmt::format("h |v| = {:.4g}, {} of the bound", angle, part);
       t.parameters = {{"part", part}, {"angle", angle}};
       t.run = [=, &method] { return examine(method, form, angle, bound); };

@@ -77,6 +77,12 @@ Finding examine(double angle) {
     round_trip = difference(Wide::Represented::stacked(a), Wide::Represented::stacked(b));
   }
   finding.measured["log"] = round_trip / inverse_condition;
+  // Below pi there is one, however small.
+  if (angle > 0.0 && angle < 3.0) {
+    const typename Wide::Tangent error = Double::log(q).template cast<Extended>() - w;
+    const auto rotation = [](const auto& u) { return u.template tail<3>().cwiseAbs().maxCoeff(); };
+    finding.measured["log_of_rotation"] = to_double(Extended(rotation(error) / rotation(w)));
+  }
   double largest = 0.0;
   for (const auto& [key, value] : finding.measured)
     if (!(value <= largest)) largest = value;

@@ -83,6 +83,7 @@ Finding examine(const Contestant& method, double angle) {
   finding.measured["wobble_factor"] = transverse / wobble;
   finding.measured["predicted_factor"] = predicted;
   finding.measured["spin_error"] = std::abs(spin - angle);
+  finding.severity = std::abs(std::log(*finding.amount));
   finding.grade = grade_of(*finding.amount);
   return finding;
 }

@@ -61,8 +61,7 @@ Angle angle_at(double t, double stiffness, double damping) {
   return {amplitude * std::exp(s * t), amplitude * s * std::exp(s * t)};
 }
 
-Finding examine(const Contestant& method, const std::string& form, double stiffness, double damping,
-                bool own_start) {
+Finding examine(const Contestant& method, const std::string& form, double stiffness, double damping) {
   SceneRun run;
   const SceneDescription at_rest = disc(!form.empty(), stiffness, damping);
   const auto at = [=](double t) {
@@ -79,7 +78,7 @@ Finding examine(const Contestant& method, const std::string& form, double stiffn
   run.options = method.options_for(form);
   run.step_size = h;
   run.steps = steps;
-  if (!own_start) run.exact = at;
+  run.exact = at;
   double energy = 0.0;
   run.watch = [&](const WatchedState& s) { energy = s.energy; };
   Finding finding = finding_of(run_scene(run));
@@ -95,15 +94,21 @@ Finding examine(const Contestant& method, const std::string& form, double stiffn
   finding.expected = growth > grown          ? Grade::failed
                      : growth < kept * exact ? Grade::degraded
                                              : Grade::survived;
-  // A state of the method: of a_0 not all goes in the first step, and a velocity of h a_0 stays.
-  const double first_acceleration = std::norm(root(stiffness, damping)) * amplitude;
-  if (method.rho_inf() && h * h * first_acceleration > 1.0) finding.at_worst = Grade::failed;
   finding.reason =
       fmt::format("z = h mu = {:.3g}{:+.3g}i has the spectral radius {:.4g}", z.real(), z.imag(), radius);
+  // v_1 = h ((1 - gamma) a_0 + gamma a_1), and with D' = 0 what is left of it is about h a_0 / 4 for rho_inf = 0, h a_0 (1 - gamma) at most.
+  const double first_turn = h * h * std::norm(root(stiffness, damping)) * amplitude;
+  if (method.rho_inf() && first_turn > 1.0) {
+    finding.at_worst = Grade::failed;
+    finding.reason += fmt::format(
+        "; but a_0 is a state of the method, and h a_0 of velocity turns by h^2 a_0 = {:.2g} rad a step",
+        first_turn);
+  }
   if (finding.grade == Grade::failed) return finding;
   const double factor = std::sqrt(energy / first);
   finding.measured["amplitude"] = factor;
   finding.amount = factor;
+  finding.severity = std::abs(std::log(factor));
   finding.grade = !(factor <= grown)      ? Grade::failed
                   : factor < kept * exact ? Grade::degraded
                                           : Grade::survived;
@@ -130,7 +135,7 @@ std::vector<Trial> trials() {
         t.variant = fmt::format("{:.0e} N m/rad, {}", stiffness, damped.words);
         t.parameters = {{"stiffness", stiffness}, {"damping_ratio", damped.ratio}};
         t.quick = damped.ratio != 0.01;
-        t.run = [=, &method] { return examine(method, form, stiffness, damping, false); };
+        t.run = [=, &method] { return examine(method, form, stiffness, damping); };
         return t;
       };
       add_trials(all, forms, make);

@@ -6,6 +6,7 @@
 
 #include "harness/scene_reader.h"
 #include "harness/stability/contestant.h"
+#include "integrators/bdf_coefficients.h"
 
 namespace liebench {
 namespace {
@@ -53,6 +54,43 @@ TEST(Safeguard, TakesAStepThroughFrictionThatPlainNewtonDoesNot) {
     // Two steps of the torque and the slip velocity.
     EXPECT_LE(std::abs(rate), 4e-3 + 1e-8) << method.name;
   }
+}
+
+// J (sum alpha_i v_{n+1-i}) / h = -T tanh(v_{n+1} / v_s) in every step, where Newton's iteration failed, too. v is known to some eps / h,
+// which is 1e-5 of the slip velocity here.
+TEST(Safeguard, SolvesTheEquationOfTheStep) {
+  constexpr double slip = 1e-8, torque = 2.0, h = 1e-3;
+  for (const int k : {1, 2, 4, 6}) {
+    SceneRun run = run_of(disc(slip), contestant("bliedf2nd", {{"k", k}}), true);
+    std::vector<double> rates;
+    run.every = 1;
+    run.watch = [&](const WatchedState& s) { rates.push_back(s.bodies[0].omega(2)); };
+    ASSERT_EQ(run_scene(run).outcome, Outcome::ok) << k;
+    const auto alpha = bdf_coefficients<double>(k).alpha;
+    for (std::size_t n = 2 * std::size_t(k); n < rates.size(); ++n) {
+      double change = 0.0;
+      for (std::size_t i = 0; i <= std::size_t(k); ++i) change += alpha[i] * rates[n - i];
+      EXPECT_NEAR(change / (h * torque), -std::tanh(rates[n] / slip), 1e-3) << "k = " << k << ", step " << n;
+    }
+  }
+}
+
+// Driven faster and faster, a hinge turns by half a turn in a step: a turn less would fulfil its constraint, too.
+TEST(Safeguard, DoesNotTakeATurnLess) {
+  const auto hinge = assembled(read_scene(parse_json(R"({"name": "driven",
+    "bodies": [{"name": "disc", "mass": 2, "inertia": [0.6, 0.6, 1], "angular_velocity": [0, 0, 10]}],
+    "joints": [{"type": "revolute", "bodies": ["ground", "disc"], "point": [0, 0, 0], "axis": [0, 0, 1],
+                "motion": {"polynomial": [0, 10, 10]}}]})",
+                                                     "driven")));
+  for (const char* form : {"index3", "stabilized_index2"})
+    for (const Contestant& method : contestants(true)) {
+      SceneRun run = run_of(hinge, method, true);
+      run.options = method.options_for(form);
+      run.step_size = 0.1;
+      run.steps = 30;
+      const SceneRunEnd end = run_scene(run);
+      EXPECT_NE(end.outcome, Outcome::ok) << method.name << ", " << form;
+    }
 }
 
 TEST(Safeguard, ChangesNoBitOfARunThatDoesNotFail) {

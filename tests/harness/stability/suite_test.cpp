@@ -7,10 +7,12 @@
 #include <sstream>
 
 #include "groups/flattened.h"
+#include "harness/embedded.h"
 #include "harness/errors.h"
 #include "harness/execute.h"
 #include "harness/progress.h"
 #include "harness/stability/report.h"
+#include "tests/harness/json_schema.h"
 
 namespace liebench {
 namespace {
@@ -53,6 +55,13 @@ TEST(StabilitySuite, NoMethodSurprises) {
 TEST(StabilitySuite, TheRecordsDoNotDependOnTheNumberOfJobs) {
   const auto trials = suite({"degenerate_runs", "large_rotations"}, true);
   EXPECT_EQ(text_of(records_of(trials, 1)), text_of(records_of(trials, 3)));
+}
+
+TEST(StabilitySuite, TheRecordsFulfilTheirSchema) {
+  const JsonSchema schema(embedded_file("stability.schema.json"));
+  for (const Json& record :
+       records_of(suite({"degenerate_runs", "extreme_arguments", "correction_term"}, true), 2))
+    ASSERT_EQ(schema.violations(record.dump()), "") << record.dump();
 }
 
 TEST(StabilitySuite, EveryTrialHasAKeyOfItsOwn) {
