@@ -33,6 +33,7 @@ struct Plan {
   std::uint64_t steps;
   const char* factor;  // of a torque; "" without
   bool possible;       // to take these steps at all
+  std::uint64_t last;  // of those that are not, the last that is
   const char* reason;
 };
 

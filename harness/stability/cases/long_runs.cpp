@@ -163,19 +163,16 @@ std::vector<Trial> trials() {
   for (const bool quick : {true, false})
     for (const Motion* motion : {&top, &body}) {
       const std::uint64_t steps = quick ? 100'000 : 10'000'000;
-      for (
-          Trial& trial : trials_of(
-              motion->constrained ? constrained_forms : unconstrained,
-              [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
-                Trial t;
-                t.variant = fmt::format("{}, {:.0e} steps", motion->name, double(steps));
-                t.parameters = {{"motion", motion->name}, {"steps", steps}, {"step_size", motion->step_size}};
-                t.quick = quick;
-                t.work = double(steps) / 1000.0;
-                t.run = [=, &method] { return examine(*motion, method, form, steps); };
-                return t;
-              }))
-        all.push_back(std::move(trial));
+      const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+        Trial t;
+        t.variant = fmt::format("{}, {:.0e} steps", motion->name, double(steps));
+        t.parameters = {{"motion", motion->name}, {"steps", steps}, {"step_size", motion->step_size}};
+        t.quick = quick;
+        t.work = double(steps) / 1000.0;
+        t.run = [=, &method] { return examine(*motion, method, form, steps); };
+        return t;
+      };
+      add_trials(all, motion->constrained ? constrained_forms : unconstrained, make);
     }
   return all;
 }

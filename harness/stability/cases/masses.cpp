@@ -76,6 +76,10 @@ Finding examine(const Plan& plan, const Contestant& method, const std::string& f
           "nothing";
     }
   }
+  if (method.order() == 1) {
+    finding.at_worst = Grade::degraded;
+    finding.reason += "; order 1 damps every motion";
+  }
   if (weakly_unstable(method, form)) {
     finding.at_worst = Grade::failed;
     finding.reason = "rho_inf = 1: the multipliers of the index-3 form are weakly unstable";

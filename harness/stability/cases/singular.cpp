@@ -195,18 +195,17 @@ std::vector<Trial> trials() {
   std::vector<Trial> all;
   const auto add = [&](const char* variant, bool quick, Plan (*make)()) {
     const auto plan = std::make_shared<const Plan>(make());
-    for (
-        Trial& trial : trials_of(
-            constrained_forms, [&](const Contestant&method, const std::string&form) -> std::optional<Trial> {
-              Trial t;
-              t.variant = variant;
-              t.parameters = {{"mechanism", variant}, {"step_size", plan->step_size}, {"t_end", plan->t_end}};
-              t.quick = quick;
-              t.work = 10.0 * plan->t_end / plan->step_size / 1000.0;
-              t.run = [=, &method] { return examine(*plan, method, form); };
-              return t;
-            }))
-      all.push_back(std::move(trial));
+    const TrialMaker make_trial = [&](const Contestant& method,
+                                      const std::string& form) -> std::optional<Trial> {
+      Trial t;
+      t.variant = variant;
+      t.parameters = {{"mechanism", variant}, {"step_size", plan->step_size}, {"t_end", plan->t_end}};
+      t.quick = quick;
+      t.work = 10.0 * plan->t_end / plan->step_size / 1000.0;
+      t.run = [=, &method] { return examine(*plan, method, form); };
+      return t;
+    };
+    add_trials(all, constrained_forms, make_trial);
   };
   add("four-bar through flat", true, four_bar_through_flat);
   add("Bricard", false, bricard);
