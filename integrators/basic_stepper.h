@@ -47,7 +47,8 @@ class BasicStepper {
         q_(group_of(system).identity()),
         velocity_(zero_velocity(system)),
         lambda_(zero_multipliers(system)),
-        safeguard_(safeguard) {}
+        safeguard_(safeguard),
+        last_step_(velocity_) {}
 
   // Solves the step equation and moves to its solution. `scaled_lambda` is the prediction of h lambda_{n+1}, and its
   // value afterwards; `change` the same of d = Dq_n - base, without B^T eta.
@@ -69,6 +70,10 @@ class BasicStepper {
     }
     t_ = t;
     q_ = point.q;
+    if (safeguard_) {
+      set(last_step_, point.step);
+      stepped_ = true;
+    }
     set(velocity_, point.values.velocity);
     set(change, Equation::change(z, system()));
     if constexpr (l != 0) {
@@ -79,18 +84,19 @@ class BasicStepper {
   }
 
   // Damped, from the last multipliers and the increment that the method expects of an undisturbed motion (d = 0), or none at all (a stiff
-  // spring that was not at rest). False where both fail, and where the increment is half a turn and more away from h v_n: a constraint
+  // spring that was not at rest). False where both fail, and where the increment is half a turn and more away from that of the step before: a constraint
   // that is fulfilled by it is fulfilled by one of a turn less, too.
   template <class Closure>
   [[gnu::noinline, gnu::cold]] bool solve_again(const T& t, const Closure& closure,
                                                 typename Kernel::Unknowns& z, Point& point) {
     using Equation = typename Kernel::Equation;
+    const Velocity<S> before = stepped_ ? last_step_ : Velocity<S>(h_ * velocity_);
     for (const bool at_rest : {false, true}) {
       z.setConstant(T(0.0));
       if (at_rest) Equation::change(z, system()) = -closure.base();
       if constexpr (l != 0) Equation::scaled_lambda(z, system()) = h_ * lambda_;
       if (newton_.solve_damped(t, h_, q_, closure, z, point).outcome == Outcome::ok &&
-          turns_by_less_than_pi(point.step) && turns_by_less_than_pi(point.step - h_ * velocity_))
+          turns_by_less_than_pi(point.step) && turns_by_less_than_pi(point.step - before))
         return true;
     }
     return false;
@@ -108,6 +114,8 @@ class BasicStepper {
   Velocity<S> velocity_;   // v_n
   Multipliers<S> lambda_;  // lambda_n
   bool safeguard_;
+  bool stepped_ = false;
+  Velocity<S> last_step_;  // h Dq_{n-1}, where the safeguard is on and stepped_
 };
 
 }  // namespace liebench

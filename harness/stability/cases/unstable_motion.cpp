@@ -162,6 +162,10 @@ Finding examine(std::size_t number, const Contestant& method, const std::string&
   finding.reason =
       fmt::format("the error of the first {:.2g} s, {:.2g}, grows as a disturbance does, by exp({:.2g} t)",
                   double(early) * spacing, errors[early], exact.lyapunov);
+  if (method.order() == 1) {
+    finding.at_worst = Grade::degraded;
+    finding.reason += "; order 1 damps the motion away from it all the time";
+  }
   finding.grade = *finding.amount >= 0.7   ? Grade::survived
                   : *finding.amount >= 0.3 ? Grade::degraded
                                            : Grade::failed;
