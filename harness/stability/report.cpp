@@ -213,7 +213,7 @@ Table stability_matrix(const std::vector<Json>& records, const std::string& form
       if (matrix.columns[i].second != form) continue;
       const Worst& cell = matrix.cells.at(subject)[i];
       if (!cell.verdict) {
-        row.push_back(std::monostate{});
+        row.emplace_back();
         continue;
       }
       anything = true;
@@ -276,12 +276,16 @@ Table stability_list(const std::vector<Json>& records) {
     for (const char* key : {"outcome", "grade", "expected"}) row.push_back(record.at(key).get<std::string>());
     // Those without the safeguard are judged by nobody.
     row.push_back(plain(record) ? std::string() : record.at("verdict").get<std::string>());
-    row.push_back(record.contains("amount") ? Cell(record.at("amount").get<double>()) : Cell());
+    const auto number = [&](const Json& object, const std::string& key) {
+      if (object.contains(key))
+        row.emplace_back(object.at(key).get<double>());
+      else
+        row.emplace_back();
+    };
+    number(record, "amount");
     row.push_back(record.at("what").get<std::string>());
-    for (const std::string& measure : measures)
-      row.push_back(record.contains("measured") && record["measured"].contains(measure)
-                        ? Cell(record["measured"][measure].get<double>())
-                        : Cell());
+    const Json measured = record.value("measured", Json::object());
+    for (const std::string& measure : measures) number(measured, measure);
     table.add_row(std::move(row));
   }
   return table;
