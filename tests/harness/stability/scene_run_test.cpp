@@ -153,23 +153,20 @@ TEST(SceneRun, WatchesEverySoManyStepsFromTheFirstToTheLast) {
 }
 
 TEST(SceneRun, AFailureSaysTheStepAndTheTime) {
-  Json scene = parse_json(R"({"name": "rod",
+  Json scene = parse_json(R"json({"name": "rod",
     "bodies": [{"name": "rod", "mass": 1, "inertia": [0.1, 0.1, 0.1]}],
-    "effects": [{"type": "applied_force", "body": "rod", "torque": [0, 0, 1], "factor": {"expression": "t < 0.0495 ? 1 : sqrt(-1)"
-}
-}]
-})",
+    "effects": [{"type": "applied_force", "body": "rod", "torque": [0, 0, 1], "factor": {"expression": "t < 0.0495 ? 1 : sqrt(-1)"}}]})json",
                           "rod");
-SceneRun run =
-    run_of(assembled(read_scene(scene)), contestant("generalized_alpha", {{"rho_inf", 0.5}}), true);
-run.options = contestant("generalized_alpha", {{"rho_inf", 0.5}}).options_for("");
-const SceneRunEnd end = run_scene(run);
-EXPECT_EQ(end.outcome, Outcome::non_finite);
-ASSERT_TRUE(end.failure.has_value());
-// The first step that ends beyond 0.0495 s.
-EXPECT_EQ(end.failure->step, 50u);
-EXPECT_DOUBLE_EQ(end.failure->time, 0.05);
-EXPECT_EQ(end.reached, 49u);
+  SceneRun run =
+      run_of(assembled(read_scene(scene)), contestant("generalized_alpha", {{"rho_inf", 0.5}}), true);
+  run.options = contestant("generalized_alpha", {{"rho_inf", 0.5}}).options_for("");
+  const SceneRunEnd end = run_scene(run);
+  EXPECT_EQ(end.outcome, Outcome::non_finite);
+  ASSERT_TRUE(end.failure.has_value());
+  // The first step that ends beyond 0.0495 s.
+  EXPECT_EQ(end.failure->step, 50u);
+  EXPECT_DOUBLE_EQ(end.failure->time, 0.05);
+  EXPECT_EQ(end.reached, 49u);
 }
 
 }  // namespace
