@@ -45,10 +45,10 @@ double linear_growth(const Contestant& method, std::complex<double> z) {
     }
     return true;
   };
-  // Far enough from both ends of double.
+  // Down to what rounding leaves of the first states, and far enough from the upper end of double.
   while (blocks_done < blocks && whole_block(sizes[std::size_t(blocks_done)])) {
     const double size = sizes[std::size_t(blocks_done++)];
-    if (!(size > 1e-120 && size < 1e120)) break;
+    if (!(size > 1e-12 * sizes[0] && size < 1e120)) break;
   }
   if (blocks_done == 0) return std::numeric_limits<double>::quiet_NaN();
   const int last = blocks_done - 1;

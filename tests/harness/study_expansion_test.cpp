@@ -124,7 +124,7 @@ TEST(StudyExpansion, LeavesNoParameterAndNoOptionToADefaultUnsaid) {
   for (const ParameterInfo& info : run.problem->parameters)
     EXPECT_TRUE(run.parameters.contains(info.name)) << info.name;
   for (const OptionInfo& info : run.method->options)
-    EXPECT_TRUE(run.request.options.all().contains(info.name)) << info.name;
+    EXPECT_NE(run.request.options.all().contains(info.name), info.unsaid) << info.name;
   EXPECT_EQ(run.precision, Precision::double_precision);
   EXPECT_EQ(run.request.start, Start::reference);
   EXPECT_EQ(run.t_0, 0.0);
