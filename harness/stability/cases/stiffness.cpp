@@ -88,12 +88,14 @@ Finding examine(const Contestant& method, const std::string& form, double stiffn
   finding.what = "amplitude, times the first";
   // Of the amplitude.
   constexpr double grown = 2.0, kept = 0.5;
+  // What has died out in the exact motion, too, cannot be damped too much.
+  constexpr double died_out = 1e-12;
   const double growth = std::pow(radius, double(steps)), exact = std::exp(z.real() * double(steps));
   finding.measured["spectral_radius"] = radius;
   finding.measured["h_omega"] = std::abs(z);
-  finding.expected = growth > grown          ? Grade::failed
-                     : growth < kept * exact ? Grade::degraded
-                                             : Grade::survived;
+  finding.expected = growth > grown                              ? Grade::failed
+                     : exact > died_out && growth < kept * exact ? Grade::degraded
+                                                                 : Grade::survived;
   finding.reason =
       fmt::format("z = h mu = {:.3g}{:+.3g}i has the spectral radius {:.4g}", z.real(), z.imag(), radius);
   // v_1 = h ((1 - gamma) a_0 + gamma a_1), and with D' = 0 what is left of it is about h a_0 / 4 for rho_inf = 0, h a_0 (1 - gamma) at most.
@@ -109,9 +111,9 @@ Finding examine(const Contestant& method, const std::string& form, double stiffn
   finding.measured["amplitude"] = factor;
   finding.amount = factor;
   finding.severity = std::abs(std::log(factor));
-  finding.grade = !(factor <= grown)      ? Grade::failed
-                  : factor < kept * exact ? Grade::degraded
-                                          : Grade::survived;
+  finding.grade = !(factor <= grown)                          ? Grade::failed
+                  : exact > died_out && factor < kept * exact ? Grade::degraded
+                                                              : Grade::survived;
   return finding;
 }
 

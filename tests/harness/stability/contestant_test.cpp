@@ -24,10 +24,15 @@ TEST(LinearStability, TheStepsGrowAsTheCharacteristicPolynomialSays) {
                                          {0.3, 0.8},
                                          {0.0, 50.0},
                                          {4.0, 3.0}}) {
-      const double theory = std::log10(spectral_radius(method, z));
-      // Of roots of equal size powers of n remain; what is damped to round-off is seen for a few dozen steps alone.
-      EXPECT_NEAR(linear_growth(method, z), theory, 0.02 + 0.33 * std::abs(theory))
-          << method.name << " at " << z;
+      const double theory = std::log10(spectral_radius(method, z)), measured = linear_growth(method, z);
+      // What is damped to round-off is seen for a few dozen steps alone, with its transients.
+      if (method.rho_inf() && z.real() < 0.0)
+        // Its matrix has a root alpha_m / (alpha_m - 1) beside those of the motion, which a consistent a_0 does not excite.
+        EXPECT_LE(measured, theory + 0.02) << method.name << " at " << z;
+      else if (theory < -0.2)
+        EXPECT_LT(measured, -0.1) << method.name << " at " << z;
+      else
+        EXPECT_NEAR(measured, theory, 0.02 + 0.33 * std::abs(theory)) << method.name << " at " << z;
     }
 }
 
