@@ -104,7 +104,8 @@ void add(std::vector<Trial>& all, const char* subject) {
     Trial t;
     t.subject = subject;
     t.variant = fmt::format("angle {}", angle);
-    t.parameters = {{"group", subject}, {"angle", angle}};
+    // Clang 14 forgets, in a template, to destroy what an assignment makes of braces alone.
+    t.parameters = Json{{"group", subject}, {"angle", angle}};
     t.work = 0.01;
     t.run = [=] { return examine<Group>(angle); };
     all.push_back(std::move(t));
