@@ -6,7 +6,7 @@
 
 #include "groups/so3.h"
 
-namespace liebench {
+namespace liebench::counted_test {
 namespace {
 
 template <class Work>
@@ -59,4 +59,4 @@ TEST(Counted, GivesTheNumbersOfDouble) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::counted_test

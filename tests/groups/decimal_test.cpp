@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace liebench {
+namespace liebench::decimal_test {
 namespace {
 
 using Wide = boost::multiprecision::cpp_bin_float_100;
@@ -64,4 +64,4 @@ TEST(Decimal, ReachesTheScalarInsideADifferentiatingType) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::decimal_test

@@ -8,7 +8,7 @@
 #include "groups/so3.h"
 #include "tests/support/lie_group_properties.h"
 
-namespace liebench {
+namespace liebench::direct_product_test {
 
 using Body = DirectProduct<RealSpace<double, 3>, SO3<double>>;
 using ExtendedBody = DirectProduct<RealSpace<Extended, 3>, SO3<Extended>>;
@@ -53,7 +53,7 @@ TEST(DirectProduct, ActsComponentByComponent) {
 TEST(DirectProduct, StacksFirstAboveSecond) {
   const Body::Element q = Body::exp(six(1, -2, 3, 0.4, -0.5, 0.6));
   EXPECT_EQ(Body::stacked(q).head<3>(), q.first);
-  EXPECT_EQ(Body::stacked(q).tail<9>(), q.second.reshaped());
+  EXPECT_EQ(Body::stacked(q).tail<9>(), SO3<double>::stacked(q.second));
 }
 
 TEST(DirectProduct, RotationAngleIsTheLargestOfAll) {
@@ -71,4 +71,4 @@ TEST(DirectProduct, CommutesOnlyIfAllFactorsDo) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::direct_product_test

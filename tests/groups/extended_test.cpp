@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace liebench {
+namespace liebench::extended_test {
 namespace {
 
 TEST(Extended, EpsilonIsTheSpacingThatArithmeticSees) {
@@ -48,4 +48,4 @@ TEST(Extended, SaysThatItIsExtended) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::extended_test

@@ -5,7 +5,7 @@
 #include "groups/extended.h"
 #include "tests/support/lie_group_properties.h"
 
-namespace liebench {
+namespace liebench::real_space_test {
 
 namespace {
 
@@ -27,4 +27,4 @@ TEST(RealSpace, NothingTurns) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::real_space_test

@@ -14,7 +14,7 @@
 
 #include "groups/extended.h"
 
-namespace liebench {
+namespace liebench::rotation_coefficients_test {
 namespace {
 
 // The closed forms lose up to x^6, 90 digits at x = 1e-15.
@@ -213,4 +213,4 @@ TEST(RotationCoefficients, AtanRatioHoldsUpToItsReach) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::rotation_coefficients_test

@@ -5,7 +5,7 @@
 #include "groups/extended.h"
 #include "tests/support/lie_group_properties.h"
 
-namespace liebench {
+namespace liebench::s3_r3_test {
 
 namespace {
 
@@ -29,4 +29,4 @@ TEST(S3R3, StacksThePositionAboveTheQuaternion) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::s3_r3_test

@@ -7,7 +7,7 @@
 #include "groups/extended.h"
 #include "tests/support/lie_group_properties.h"
 
-namespace liebench {
+namespace liebench::s3_test {
 
 namespace {
 
@@ -55,4 +55,4 @@ TEST(S3, RenormalizationIsTheNewtonStepForTheNorm) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::s3_test

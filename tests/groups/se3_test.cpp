@@ -8,7 +8,7 @@
 #include "groups/extended.h"
 #include "tests/support/lie_group_properties.h"
 
-namespace liebench {
+namespace liebench::se3_test {
 
 namespace {
 
@@ -51,4 +51,4 @@ TEST(SE3, PositionsAreThatInSpaceAndThatInTheBody) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::se3_test

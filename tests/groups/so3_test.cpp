@@ -8,9 +8,10 @@
 #include <numbers>
 
 #include "groups/extended.h"
+#include "tests/support/dense_algebra.h"
 #include "tests/support/lie_group_properties.h"
 
-namespace liebench {
+namespace liebench::so3_test {
 
 namespace {
 
@@ -85,11 +86,7 @@ TEST(SO3, RenormalizationIsTheNewtonStepTowardsThePolarFactor) {
   const Matrix remaining = repaired.transpose() * repaired - Matrix::Identity();
   EXPECT_LE((remaining + 0.75 * E * E - 0.25 * E * E * E).norm(), 32 * eps);
   // The polar factor U of R = U P by the singular value decomposition: the step keeps it.
-  const auto polar = [](const Matrix& A) -> Matrix {
-    const Eigen::JacobiSVD<Matrix> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    return svd.matrixU() * svd.matrixV().transpose();
-  };
-  EXPECT_LE((polar(repaired) - polar(R)).norm(), 64 * eps);
+  EXPECT_LE((polar_factor(repaired) - polar_factor(R)).norm(), 64 * eps);
 }
 
 TEST(SO3, LogOfARoundedMatrixStaysFinite) {
@@ -114,4 +111,4 @@ TEST(SO3, SeparationIsContinuousWhereItsFormulasMeet) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::so3_test

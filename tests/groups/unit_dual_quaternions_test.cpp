@@ -6,7 +6,7 @@
 #include "groups/s3.h"
 #include "tests/support/lie_group_properties.h"
 
-namespace liebench {
+namespace liebench::unit_dual_quaternions_test {
 
 namespace {
 
@@ -65,4 +65,4 @@ TEST(UnitDualQuaternions, RenormalizationKeepsTheMotion) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::unit_dual_quaternions_test

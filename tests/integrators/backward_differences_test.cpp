@@ -10,7 +10,7 @@
 #include "groups/extended.h"
 #include "integrators/bdf_coefficients.h"
 
-namespace liebench {
+namespace liebench::backward_differences_test {
 namespace {
 
 // Calls f.template operator()<points>() for points = 2, ..., 7.
@@ -109,4 +109,4 @@ TEST(ChangeWeights, GiveExactlyZeroForAConstant) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::backward_differences_test

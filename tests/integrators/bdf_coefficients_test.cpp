@@ -12,7 +12,7 @@
 
 #include "groups/extended.h"
 
-namespace liebench {
+namespace liebench::bdf_coefficients_test {
 namespace {
 
 double to_units(const Extended& x) {
@@ -111,4 +111,4 @@ TEST(BdfCoefficients, AreZeroStable) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::bdf_coefficients_test

@@ -5,7 +5,7 @@
 #include "integrators/bliedf2nd.h"
 #include "tests/support/observed_order.h"
 
-namespace liebench {
+namespace liebench::bliedf2nd_orders_test {
 
 namespace {
 
@@ -91,4 +91,4 @@ TEST(BLieDF2nd, HasOrderKInAllComponentsFromTheFirstStepInTheStabilizedForm) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::bliedf2nd_orders_test

@@ -3,14 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <limits>
 #include <random>
 #include <utility>
 
 #include "groups/extended.h"
+#include "tests/support/dense_algebra.h"
 
-namespace liebench {
+namespace liebench::dense_lu_test {
 namespace {
 
 // Numbers in [-1, 1).
@@ -58,8 +58,8 @@ TEST(DenseLu, SolvesRandomSystemsAsEigenDoes) {
       const Eigen::Matrix<double, n, 1> x = lu.solve(b);
       EXPECT_LE((A * x - b).norm(), (backward_error_bound<double, n>(A, x))) << n;
       const Eigen::MatrixXd dense = A;
-      const Eigen::VectorXd expected = dense.fullPivLu().solve(Eigen::VectorXd(b));
-      const double condition = dense.norm() * dense.inverse().norm();
+      const Eigen::VectorXd expected = dense_solution(dense, b);
+      const double condition = dense_condition(dense);
       EXPECT_LE((x - expected).norm(), condition * 60 * n * n * 2.3e-16 * x.norm()) << n;
     }
   });
@@ -157,4 +157,4 @@ TEST(DenseLu, ServesManyRightHandSides) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::dense_lu_test

@@ -21,7 +21,7 @@
 #include "tests/support/step_law.h"
 #include "tests/support/steppers.h"
 
-namespace liebench {
+namespace liebench::faltinsen_bdf_test {
 
 namespace {
 
@@ -393,4 +393,4 @@ TEST(FaltinsenBdf, OptionsSelectTheStepper) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::faltinsen_bdf_test

@@ -13,7 +13,7 @@
 #include "tests/support/jets.h"
 #include "tests/support/known_rotation.h"
 
-namespace liebench {
+namespace liebench::faltinsen_kinematics_test {
 namespace {
 
 // h (v of the kinematic equation - v(t_{n+1})) for the known rotation.
@@ -101,4 +101,4 @@ TEST(FaltinsenKinematics, LinearizationIsTheDerivative) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::faltinsen_kinematics_test

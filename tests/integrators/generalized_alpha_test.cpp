@@ -2,15 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "groups/extended.h"
 #include "problems/heavy_top.h"
+#include "tests/support/dense_algebra.h"
 #include "tests/support/observed_order.h"
 #include "tests/support/small_systems.h"
 
-namespace liebench {
+namespace liebench::generalized_alpha_test {
 
 namespace {
 
@@ -74,7 +74,7 @@ TEST(GeneralizedAlpha, IsChungAndHulbertsMethodOnALinearSpace) {
   const S system;
   const double h = 0.05;
   const auto acceleration = [&](double t, const Vector& q, const Vector& v) -> Vector {
-    return -system.mass_matrix(q).fullPivLu().solve(system.force(t, q, v));
+    return -dense_solution(system.mass_matrix(q), system.force(t, q, v));
   };
   for (const double rho : {0.0, 0.5, 0.9, 1.0}) {
     const GeneralizedAlphaParameters<double> p(rho);
@@ -103,7 +103,7 @@ TEST(GeneralizedAlpha, IsChungAndHulbertsMethodOnALinearSpace) {
         const S::Matrix J = system.mass_matrix(q1) * ((1 - p.alpha_m) / (1 - p.alpha_f)) +
                             h * p.gamma * system.damping(step * h, q1, v1) +
                             h * h * p.beta * system.stiffness(step * h, q1, v1, vdot1, {});
-        next -= J.fullPivLu().solve(r);
+        next -= dense_solution(J, r);
       }
       q = q1;
       v = v1;
@@ -136,4 +136,4 @@ TEST(GeneralizedAlpha, ConstantVelocityGivesTheExponentialExactly) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::generalized_alpha_test

@@ -9,7 +9,7 @@
 
 #include "groups/extended.h"
 
-namespace liebench {
+namespace liebench::history_test {
 namespace {
 
 using Vector = Eigen::Vector2d;
@@ -97,4 +97,4 @@ TEST(History, ExtrapolatesInTheScalarOfTheVectors) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::history_test

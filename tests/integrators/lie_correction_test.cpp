@@ -14,7 +14,7 @@
 #include "tests/support/jets.h"
 #include "tests/support/known_rotation.h"
 
-namespace liebench {
+namespace liebench::lie_correction_test {
 namespace {
 
 using S = HeavyTopSO3<Extended>;  // of which only the group counts here
@@ -161,4 +161,4 @@ TEST(ImplicitCorrection, LinearizationIsTheDerivativeUpToWhatItLeavesOut) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::lie_correction_test

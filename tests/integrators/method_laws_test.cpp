@@ -19,7 +19,7 @@
 // Laws of every integrator in every combination of its options on small systems. Those on formulations of the heavy top:
 // tests/support/method_laws.h.
 
-namespace liebench {
+namespace liebench::method_laws_test {
 namespace {
 
 // q_0 + j h v_0, whatever the forces.
@@ -56,8 +56,8 @@ TEST(EveryMethod, ReportsARedundantConstraintAsSingular) {
 }
 
 TEST(EveryMethod, ReportsForcesThatAreNoNumbersAsNonFinite) {
-  expect_outcome(Particle<double, NanForce>(), Outcome::non_finite);
-  expect_outcome(Particle<double, InfiniteForce>(), Outcome::non_finite);
+  expect_outcome(Particle<double, Unconstrained>(1.0, ParticleForce::no_number), Outcome::non_finite);
+  expect_outcome(Particle<double, Unconstrained>(1.0, ParticleForce::infinite), Outcome::non_finite);
 }
 
 TEST(EveryMethod, ReportsAConstraintWithoutSolutionAsDivergence) {
@@ -244,4 +244,4 @@ TEST(EveryMethod, DescribesItsOptions) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::method_laws_test

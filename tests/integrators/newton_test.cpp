@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,10 +12,11 @@
 #include "integrators/affine_closure.h"
 #include "integrators/bliedf2nd.h"
 #include "problems/heavy_top.h"
+#include "tests/support/dense_algebra.h"
 #include "tests/support/heavy_top_samples.h"
 #include "tests/support/small_systems.h"
 
-namespace liebench {
+namespace liebench::newton_test {
 namespace {
 
 // A step from q_n with increments near `base`, as a BDF method with gamma_1 = 3/2 makes it.
@@ -56,11 +56,11 @@ double distance_from_solution(const S& system, double h, const Configuration<S>&
   Eigen::Matrix<double, n, n> J;
   ED::jacobian(linear, 0.0, h, S::Group::template cast<double>(q_n), linear_point, z.template cast<double>(),
                closure.linearization(point.change), J);
-  const Eigen::Matrix<double, n, 1> d = J.fullPivLu().solve(r.template cast<double>().eval());
+  const Eigen::VectorXd d = dense_solution(J, r.template cast<double>());
   const double eps = to_double(Eigen::NumTraits<T>::epsilon());
   const double q_scale = S::Group::stacked(q_n).template cast<double>().norm();
   const double scale = to_double(closure.base().norm()) + (E::l > 0 ? q_scale / h : 0.0);
-  return d.template head<E::m>().norm() / (eps * scale);
+  return d.head(E::m).norm() / (eps * scale);
 }
 
 template <class S>
@@ -141,7 +141,7 @@ template <class S>
 StepResult solve_from_rest(const S& system, double h) {
   Velocity<S> v = system.initial_velocity();
   const auto closure = closure_about<S>(v);
-  NewtonKernel<S, Form::index3, NoAudit> newton(system);
+  NewtonKernel<S, Form::index3, KernelAudit> newton(system);
   typename StepEquation<S>::Unknowns z = StepEquation<S>::Unknowns::Zero();
   typename StepEquation<S>::Point point;
   return newton.solve(0.0, h, system.initial_configuration(), closure, z, point);
@@ -166,8 +166,12 @@ TEST(NewtonKernel, SaysThatItDivergesWhereThereIsNoSolution) {
 
 TEST(NewtonKernel, SaysThatANumberIsNotFinite) {
   for (const double h : {0.1, 1e-6}) {
-    EXPECT_EQ(solve_from_rest(Particle<double, NanForce>(), h).outcome, Outcome::non_finite) << h;
-    EXPECT_EQ(solve_from_rest(Particle<double, InfiniteForce>(), h).outcome, Outcome::non_finite) << h;
+    EXPECT_EQ(solve_from_rest(Particle<double, Unconstrained>(1.0, ParticleForce::no_number), h).outcome,
+              Outcome::non_finite)
+        << h;
+    EXPECT_EQ(solve_from_rest(Particle<double, Unconstrained>(1.0, ParticleForce::infinite), h).outcome,
+              Outcome::non_finite)
+        << h;
   }
 }
 
@@ -190,12 +194,12 @@ TEST(NewtonKernel, ARateOfZeroIsNotBelievedForEver) {
   // While the pull is constant the second correction of a step is exactly zero, and the steps after it need none. At the
   // wall the matrix, which knows no spring, contracts by h^2 * 1000 = 0.06 only: a kernel that still believed in the rate
   // of before would stop after its first correction. k = 1: v_{n+1} - v_n = -h g(q_{n+1}).
-  using S = Particle<double, SpringBehindAWall>;
-  const S system;
+  using S = Particle<double, Unconstrained>;
+  const S system(1.0, ParticleForce::spring_behind_a_wall);
   const double h = 0x1p-7;
   std::array<SolutionPoint<S>, 2> points;
   for (auto& p : points) p = {0.0, system.initial_configuration(), system.initial_velocity(), {0.0, 1.0}, {}};
-  BLieDF2nd::Stepper<S> stepper(system, BLieDF2nd::Options{.k = 1});
+  BLieDF2nd::Stepper<S, Form::index3, KernelAudit> stepper(system, BLieDF2nd::Options{.k = 1});
   ASSERT_EQ(stepper.start(h, points).outcome, Outcome::ok);
   double largest = 0.0, reach = 0.0;
   for (int n = 0; n < 400; ++n) {
@@ -210,4 +214,4 @@ TEST(NewtonKernel, ARateOfZeroIsNotBelievedForEver) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::newton_test

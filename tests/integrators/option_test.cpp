@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace liebench {
+namespace liebench::option_test {
 namespace {
 
 TEST(OptionValues, GiveBackWhatWasSet) {
@@ -29,4 +29,4 @@ TEST(OptionValues, KeepTheLastValueSet) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::option_test

@@ -5,7 +5,7 @@
 #include <set>
 #include <string_view>
 
-namespace liebench {
+namespace liebench::outcome_test {
 namespace {
 
 TEST(Outcome, EveryOutcomeHasItsOwnName) {
@@ -25,4 +25,4 @@ TEST(Outcome, AStepIsFineUnlessItSaysOtherwise) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::outcome_test

@@ -16,7 +16,7 @@
 #include "problems/scene_examples.h"
 #include "tests/support/sample_scenes.h"
 
-namespace liebench {
+namespace liebench::scene_stepper_test {
 namespace {
 
 // One of each kind of closure and Newton matrix.
@@ -178,4 +178,4 @@ TEST(SceneStepper, AChainTakesLessThan20kBABody) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::scene_stepper_test

@@ -20,7 +20,7 @@
 #include "tests/support/observed_order.h"
 #include "tests/support/small_systems.h"
 
-namespace liebench {
+namespace liebench::self_start_test {
 namespace {
 
 // --- the Runge-Kutta-Munthe-Kaas step --------------------------------------------------------------------
@@ -220,8 +220,8 @@ TEST(SelfStart, SaysThatForcesAreNoNumbers) {
   };
   check(HeavyTopSO3<double>(p));
   check(HeavyTopR3xSO3<double>(p));
-  check(Particle<double, NanForce>());
-  check(Particle<double, InfiniteForce>());
+  check(Particle<double, Unconstrained>(1.0, ParticleForce::no_number));
+  check(Particle<double, Unconstrained>(1.0, ParticleForce::infinite));
 }
 
 // --- methods from their own start ------------------------------------------------------------------------
@@ -265,4 +265,4 @@ TEST(SelfStart, KeepsTheOrderOfGeneralizedAlpha) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::self_start_test

@@ -10,7 +10,7 @@
 
 // Effects on one body.
 
-namespace liebench {
+namespace liebench::effects_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -187,4 +187,4 @@ TEST(Contact, Laws) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::effects_test

@@ -8,7 +8,7 @@
 #include "tests/support/heavy_top_samples.h"
 #include "tests/support/jets.h"
 
-namespace liebench {
+namespace liebench::heavy_top_motion_test {
 namespace {
 
 // 4.9e-32 a rounding, some hundred of them in a coefficient's convolutions, times the growth of an error
@@ -105,4 +105,4 @@ TYPED_TEST(HeavyTopMotionIn, InvariantsAreConstant) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::heavy_top_motion_test

@@ -4,7 +4,7 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-namespace liebench {
+namespace liebench::heavy_top_parameters_test {
 namespace {
 
 using Wide = boost::multiprecision::cpp_bin_float_50;
@@ -38,4 +38,4 @@ TEST(HeavyTopParameters, OrientationIsNormalised) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::heavy_top_parameters_test

@@ -11,7 +11,7 @@
 
 // Effects between two bodies.
 
-namespace liebench {
+namespace liebench::joint_effects_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -228,4 +228,4 @@ TEST(JointFriction, Laws) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::joint_effects_test

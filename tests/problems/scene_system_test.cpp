@@ -11,7 +11,7 @@
 #include "problems/scene_model.h"
 #include "tests/support/sample_scenes.h"
 
-namespace liebench {
+namespace liebench::scene_system_test {
 namespace {
 
 using System = SceneSystem<double>;
@@ -194,4 +194,4 @@ TEST(SceneSystem, EnergyDoesNotDependOnTheGroup) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::scene_system_test

@@ -10,7 +10,7 @@
 
 #include "groups/extended.h"
 
-namespace liebench {
+namespace liebench::time_function_test {
 namespace {
 
 using Function = TimeFunction<double>;
@@ -100,4 +100,4 @@ TEST(TimeFunction, CastReadsDecimals) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::time_function_test

@@ -26,6 +26,9 @@ namespace liebench {
 
 template <int n>
 using JetOf = ceres::Jet<double, n>;
+// For n derivatives at most: of six, where that is enough, for every type of Jets is one more system to compile.
+template <int n>
+using JetFor = JetOf<(n > 6 ? n : 6)>;
 
 // x, a matrix of doubles (or already of the system's scalar), in the scalar of `system`.
 template <class System, class Derived>
@@ -39,7 +42,7 @@ auto in_scalar_of(const System&, const Eigen::MatrixBase<Derived>& x) {
 template <MechanicalSystem S, class F>
 auto derivative_by_jets(const S& system, const Configuration<S>& q, const F& f) {
   constexpr int m = S::Group::dimension;
-  using Jet = JetOf<m>;
+  using Jet = JetFor<m>;
   using JetSystem = typename S::template rebind<Jet>;
   const JetSystem jets = system.template cast<Jet>();
   typename JetSystem::Group::Tangent delta;
@@ -49,7 +52,7 @@ auto derivative_by_jets(const S& system, const Configuration<S>& q, const F& f) 
   const auto value = f(jets, at).eval();
   constexpr int rows = decltype(value)::RowsAtCompileTime;
   Eigen::Matrix<double, rows, m> derivative;
-  for (int i = 0; i < rows; ++i) derivative.row(i) = value(i).v.transpose();
+  for (int i = 0; i < rows; ++i) derivative.row(i) = value(i).v.template head<m>().transpose();
   return derivative;
 }
 
@@ -57,7 +60,7 @@ auto derivative_by_jets(const S& system, const Configuration<S>& q, const F& f) 
 template <MechanicalSystem S, class F>
 auto directional_derivative_by_jets(const S& system, const Configuration<S>& q, const Velocity<S>& w,
                                     const F& f) {
-  using Jet = JetOf<1>;
+  using Jet = JetFor<1>;
   using JetSystem = typename S::template rebind<Jet>;
   using Group = typename JetSystem::Group;
   const JetSystem jets = system.template cast<Jet>();
@@ -75,7 +78,7 @@ auto directional_derivative_by_jets(const S& system, const Configuration<S>& q, 
 template <MechanicalSystem S, class F>
 auto velocity_derivative_by_jets(const S& system, const Velocity<S>& v, const F& f) {
   constexpr int m = S::Group::dimension;
-  using Jet = JetOf<m>;
+  using Jet = JetFor<m>;
   using JetSystem = typename S::template rebind<Jet>;
   const JetSystem jets = system.template cast<Jet>();
   typename JetSystem::Group::Tangent at;
@@ -83,7 +86,7 @@ auto velocity_derivative_by_jets(const S& system, const Velocity<S>& v, const F&
   const auto value = f(jets, at).eval();
   constexpr int rows = decltype(value)::RowsAtCompileTime;
   Eigen::Matrix<double, rows, m> derivative;
-  for (int i = 0; i < rows; ++i) derivative.row(i) = value(i).v.transpose();
+  for (int i = 0; i < rows; ++i) derivative.row(i) = value(i).v.template head<m>().transpose();
   return derivative;
 }
 

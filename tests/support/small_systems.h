@@ -66,9 +66,15 @@ class Oscillators {
   Matrix mass_, stiffness_, damping_;
 };
 
-// A particle of mass m in the plane, q = (x, y), without gravity, under a law that a test chooses: the law
-// has `constraints` and static functions force(q) and, where it has constraints, phi(q), gradient(q) and
-// gradient_derivative(q, v).
+enum class ParticleForce {
+  none,
+  spring_behind_a_wall,  // a constant pull along y, and a spring of 1000 N/m beyond y = 1.5 m
+  no_number,
+  infinite,
+};
+
+// A particle of mass m in the plane, q = (x, y), without gravity, under a force and a law that a test chooses: the law
+// has `constraints` and, where it has some, static functions phi(q), gradient(q) and gradient_derivative(q, v).
 template <Scalar T, template <class> class Law>
 class Particle {
  public:
@@ -82,15 +88,30 @@ class Particle {
   using Matrix = Eigen::Matrix<T, 2, 2>;
   using Lambda = Eigen::Matrix<T, constraints, 1>;
 
-  explicit Particle(double mass = 1.0) : mass_(mass) {}
+  explicit Particle(double mass = 1.0, ParticleForce force = ParticleForce::none)
+      : mass_(mass), force_(force) {}
   template <class U>
   Particle<U, Law> cast() const {
-    return Particle<U, Law>(mass_);
+    return Particle<U, Law>(mass_, force_);
   }
 
   Matrix mass_matrix(const Vector&) const { return T(mass_) * Matrix::Identity(); }
   Vector momentum(const Vector&, const Vector& w) const { return T(mass_) * w; }
-  Vector force(const T&, const Vector& q, const Vector&) const { return Law<T>::force(q); }
+  Vector force(const T&, const Vector& q, const Vector&) const {
+    switch (force_) {
+      case ParticleForce::none:
+        break;
+      case ParticleForce::spring_behind_a_wall: {
+        const T reach = q(1) - T(1.5);
+        return Vector(T(0.0), T(-1.0) + (T(0.0) < reach ? T(reach * 1000.0) : T(0.0)));
+      }
+      case ParticleForce::no_number:
+        return Vector::Constant(T(std::numeric_limits<double>::quiet_NaN()));
+      case ParticleForce::infinite:
+        return Vector::Constant(T(std::numeric_limits<double>::infinity()));
+    }
+    return Vector::Constant(T(0.0));
+  }
   Matrix damping(const T&, const Vector&, const Vector&) const { return Matrix::Constant(T(0.0)); }
   Matrix stiffness(const T&, const Vector&, const Vector&, const Vector&, const Lambda&) const {
     return Matrix::Constant(T(0.0));
@@ -119,6 +140,7 @@ class Particle {
 
  private:
   double mass_;
+  ParticleForce force_;
 };
 
 // x = 1, said twice: the gradient has rank 1 of 2.
@@ -135,7 +157,6 @@ struct RedundantConstraint {
   static Eigen::Matrix<T, 2, 2> gradient_derivative(const Vector&, const Vector&) {
     return Eigen::Matrix<T, 2, 2>::Constant(T(0.0));
   }
-  static Vector force(const Vector&) { return Vector::Constant(T(0.0)); }
 };
 
 // 1 + x^2 = 0, which no real x satisfies.
@@ -148,34 +169,12 @@ struct ImpossibleConstraint {
   static Eigen::Matrix<T, 1, 2> gradient_derivative(const Vector&, const Vector& v) {
     return {T(2.0) * v(0), T(0.0)};
   }
-  static Vector force(const Vector&) { return Vector::Constant(T(0.0)); }
 };
 
-// A constant pull along y, and a spring of 1000 N/m beyond y = 1.5 m.
+// None: the particle is free.
 template <class T>
-struct SpringBehindAWall {
+struct Unconstrained {
   static constexpr int constraints = 0;
-  using Vector = Eigen::Matrix<T, 2, 1>;
-  static Vector force(const Vector& q) {
-    const T reach = q(1) - T(1.5);
-    return Vector(T(0.0), T(-1.0) + (T(0.0) < reach ? T(reach * 1000.0) : T(0.0)));
-  }
-};
-
-// No number.
-template <class T>
-struct NanForce {
-  static constexpr int constraints = 0;
-  using Vector = Eigen::Matrix<T, 2, 1>;
-  static Vector force(const Vector&) { return Vector::Constant(T(std::numeric_limits<double>::quiet_NaN())); }
-};
-
-// Infinite.
-template <class T>
-struct InfiniteForce {
-  static constexpr int constraints = 0;
-  using Vector = Eigen::Matrix<T, 2, 1>;
-  static Vector force(const Vector&) { return Vector::Constant(T(std::numeric_limits<double>::infinity())); }
 };
 
 }  // namespace liebench

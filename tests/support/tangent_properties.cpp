@@ -137,8 +137,9 @@ std::vector<Property<T>> tangent_properties() {
              const Eigen::MatrixXd tangent = D.tangent_by_jets(), inverse = D.tangent_inverse_by_jets();
              for (int i = 0; i < D.dimension(); ++i) {
                const Eigen::MatrixXd half = D.ad(identity.col(i)) * 0.5;
-               EXPECT_EQ((tangent.col(i) + half.reshaped()).norm(), 0.0);
-               EXPECT_EQ((inverse.col(i) - half.reshaped()).norm(), 0.0);
+               const Eigen::Map<const Eigen::VectorXd> entries(half.data(), half.size());
+               EXPECT_EQ((tangent.col(i) + entries).norm(), 0.0);
+               EXPECT_EQ((inverse.col(i) - entries).norm(), 0.0);
              }
            }},
           {"RepresentedKeepsTheIdentity",
