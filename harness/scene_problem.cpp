@@ -87,7 +87,7 @@ class SceneMonitor {
       RigidState<Extended> s;
       body.read_pose(q, s);
       all.segment<3>(row) = s.x;
-      all.segment<9>(row + 3) = s.R.reshaped();
+      all.segment<9>(row + 3) = SO3<Extended>::stacked(s.R);
       row += 12;
     }
     return all;

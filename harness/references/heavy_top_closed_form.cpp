@@ -86,16 +86,16 @@ std::array<Wide, 4> quaternion(const WideMatrix& R) {
   return p;
 }
 
-// One of alpha(t), beta(t), in the letters of alpha: x_0 Q_a(t) / Q_a(0) exp(i r_a t).
-struct CayleyKlein {
-  Complex initial;  // x_0 / Q_a(0)
-  Complex shift;    // v_a
-  Wide rate;        // r_a
-};
-
 }  // namespace
 
 struct HeavyTopClosedForm::Constants {
+  // One of alpha(t), beta(t), in the letters of alpha: x_0 Q_a(t) / Q_a(0) exp(i r_a t).
+  struct CayleyKlein {
+    Complex initial;  // x_0 / Q_a(0)
+    Complex shift;    // v_a
+    Wide rate;        // r_a
+  };
+
   WideMatrix S;  // frame about e, inertial coordinates
   WideMatrix B;  // frame about a, body coordinates
   Wide w;
@@ -240,7 +240,7 @@ HeavyTopWitness HeavyTopClosedForm::at(double time) const {
   const Complex v = c.phase(t);
   const Theta1 theta(v, c.nome);
   const Wide unit = pi / (2 * c.w1);
-  const auto evaluate = [&](const CayleyKlein& x) {
+  const auto evaluate = [&](const Constants::CayleyKlein& x) {
     const Theta1 shifted(v + x.shift, c.nome);
     const Complex front = x.initial * exp(imaginary(x.rate * t)) / theta.value;
     const Complex value = front * shifted.value;
