@@ -55,10 +55,15 @@ class HeldStepper final : public AnyStepper<typename Stepper::System> {
  public:
   using S = typename Stepper::System;
   using T = typename S::Scalar;
+  static constexpr bool fixed_size = !SizedLieGroup<typename S::Group>;
   // No pointer, no vector: all that a step of a system of fixed size needs is in the stepper itself.
-  static_assert(SizedLieGroup<typename S::Group> || std::is_trivially_destructible_v<Stepper>);
+  static_assert(!fixed_size || std::is_trivially_destructible_v<Stepper>);
 
   explicit HeldStepper(const Stepper& stepper) : stepper_(stepper) {}
+  // Several kB, member by member: cold, so that the compiler does not unroll it.
+  [[gnu::noinline, gnu::cold]] static std::unique_ptr<AnyStepper<S>> holding(const Stepper& stepper) {
+    return std::unique_ptr<AnyStepper<S>>(new HeldStepper(stepper));
+  }
   int steps() const override { return stepper_.steps(); }
   int starting_points() const override { return stepper_.starting_points(); }
   StepResult start(const T& h, std::span<const SolutionPoint<S>> points) override {
@@ -76,8 +81,21 @@ class HeldStepper final : public AnyStepper<typename Stepper::System> {
     for (std::uint64_t i = 0; i < steps && result.outcome == Outcome::ok; ++i) result = stepper_.step();
     return result;
   }
-  std::unique_ptr<AnyStepper<S>> clone() const override { return std::make_unique<HeldStepper>(*this); }
-  void assign(const AnyStepper<S>& other) override { *this = static_cast<const HeldStepper&>(other); }
+  std::unique_ptr<AnyStepper<S>> clone() const override {
+    if constexpr (fixed_size) {
+      return holding(stepper_);
+    } else {
+      return std::make_unique<HeldStepper>(*this);
+    }
+  }
+  void assign(const AnyStepper<S>& other) override {
+    const auto& same = static_cast<const HeldStepper&>(other);
+    if constexpr (fixed_size) {
+      copy(same.stepper_, stepper_);
+    } else {
+      *this = same;
+    }
+  }
   const T& time() const override { return stepper_.time(); }
   const Configuration<S>& configuration() const override { return stepper_.configuration(); }
   const Velocity<S>& velocity() const override { return stepper_.velocity(); }
@@ -91,6 +109,8 @@ class HeldStepper final : public AnyStepper<typename Stepper::System> {
   }
 
  private:
+  [[gnu::noinline, gnu::cold]] static void copy(const Stepper& from, Stepper& to) { to = from; }
+
   Stepper stepper_;
 };
 
@@ -113,7 +133,11 @@ template <class Method, MechanicalSystem S>
 std::unique_ptr<AnyStepper<S>> held_stepper(const typename Method::Options& options, const S& system) {
   return Method::template with_stepper<S, typename AuditOf<S>::type>(
       options, system, []<class Stepper>(const Stepper& stepper) -> std::unique_ptr<AnyStepper<S>> {
-        return std::make_unique<HeldStepper<Stepper>>(stepper);
+        if constexpr (HeldStepper<Stepper>::fixed_size) {
+          return HeldStepper<Stepper>::holding(stepper);
+        } else {
+          return std::make_unique<HeldStepper<Stepper>>(stepper);
+        }
       });
 }
 
