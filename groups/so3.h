@@ -47,8 +47,8 @@ struct SO3 : RotationAlgebra<T> {
   static Tangent rotate(const Element& R, const Tangent& w) { return R * w; }
   static Tangent rotate_back(const Element& R, const Tangent& w) { return R.transpose() * w; }
 
-  static Stacked stacked(const Element& R) { return R.reshaped(); }
-  static Element unstacked(const Stacked& s) { return s.reshaped(3, 3); }
+  static Stacked stacked(const Element& R) { return Eigen::Map<const Stacked>(R.data()); }
+  static Element unstacked(const Stacked& s) { return Eigen::Map<const Element>(s.data()); }
   template <class U>
   static typename SO3<U>::Element cast(const Element& R) {
     return R.template cast<U>();
