@@ -3,7 +3,7 @@
 # or reshaped ones, a third of that: the build reads a copy of Eigen's headers in which those two files are empty. Other
 # code that was compiled with the whole ones links with it, for no function and no layout changes.
 function(liebench_lean_eigen)
-  set(lean "${PROJECT_BINARY_DIR}/eigen")
+  set(lean "${PROJECT_BINARY_DIR}/eigen-${Eigen3_VERSION}")
   get_target_property(whole Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
   if(NOT EXISTS "${lean}/Eigen/src/plugins/ReshapedMethods.h")
     file(COPY "${whole}/Eigen" DESTINATION "${lean}")

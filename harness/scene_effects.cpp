@@ -8,6 +8,7 @@
 
 #include "groups/counted.h"
 #include "harness/instances/run_time_scenes.h"
+#include "harness/median.h"
 #include "harness/run_method.h"
 #include "harness/scene_visit.h"
 
@@ -91,11 +92,6 @@ class TimedScene final : public Timed {
 double rotation_between(const BodySample& a, const BodySample& b) {
   const Quaternion<double> p(a.orientation.data()), q(b.orientation.data());
   return quaternion_log<double>(quaternion_product<double>(quaternion_conjugate<double>(p), q)).norm();
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using Top = HeavyTopR3xSO3<double>;
 using Equation = StepEquation<Top>;
 constexpr int m = Equation::m, l = Equation::l, n = Equation::n;
 using NewtonMatrix = Eigen::Matrix<double, n, n>;
-using Vector = Eigen::Matrix<double, n, 1>;
+using Unknowns = Equation::Unknowns;
 
 // At the initial values, with multipliers of their size there.
 NewtonMatrix scaled_matrix(double h) {
@@ -28,7 +28,7 @@ NewtonMatrix scaled_matrix(double h) {
   p.values.velocity = top.initial_velocity();
   p.step = h * p.values.velocity;
   p.values.scaled_acceleration.setZero();
-  Vector z = Vector::Zero();
+  Unknowns z = Unknowns::Zero();
   z.tail<l>() = h * Eigen::Vector3d(0.0, -319.5, -317.3);
   const double gamma = bdf_coefficients<double>(3).gamma[0];
   NewtonMatrix J;
@@ -45,9 +45,9 @@ double condition(const NewtonMatrix& J) {
 }
 
 // |lambda - exact| / |exact| of J x = J exact, the right side from 80 bits.
-double multiplier_error(const NewtonMatrix& J, const Vector& exact) {
-  const Vector right = (J.cast<long double>() * exact.cast<long double>()).cast<double>();
-  const Vector x = J.fullPivLu().solve(right);
+double multiplier_error(const NewtonMatrix& J, const Unknowns& exact) {
+  const Unknowns right = (J.cast<long double>() * exact.cast<long double>()).cast<double>();
+  const Unknowns x = J.fullPivLu().solve(right);
   return (x - exact).tail<l>().norm() / exact.tail<l>().norm();
 }
 
@@ -65,10 +65,10 @@ Table scaling_table() {
   for (const double h : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}) {
     const NewtonMatrix scaled = scaled_matrix(h);
     // Rows (h r, Phi / h) to (r, Phi), columns (Dq, h lambda) to (h Dq, lambda).
-    Vector by = Vector::Constant(h);
+    Unknowns by = Unknowns::Constant(h);
     by.head<m>().setConstant(1.0 / h);
     const NewtonMatrix plain = by.asDiagonal() * scaled * by.asDiagonal();
-    Vector exact = Vector::Constant(1e-3);
+    Unknowns exact = Unknowns::Constant(1e-3);
     exact.tail<l>() = h * Eigen::Vector3d(10.0, -319.5, -317.3);
     table.add_row({h, condition(scaled), condition(plain), std::int64_t(scaled.fullPivLu().rank()),
                    std::int64_t(plain.fullPivLu().rank()), multiplier_error(scaled, exact),
