@@ -13,7 +13,7 @@ struct GroupCalls {
   std::uint64_t exp = 0;
   std::uint64_t log = 0;
   std::uint64_t tangent = 0;          // T(v), T(v) w, A T(v)
-  std::uint64_t tangent_inverse = 0;  // T(v)^{-1}
+  std::uint64_t tangent_inverse = 0;  // T(v)^{-1}, T(v)^{-1} w
   std::uint64_t commutators = 0;      // [v, w], and ad(v), its matrix
 
   // Of this thread, since it began.
@@ -59,6 +59,10 @@ struct AuditedGroup : G {
   static Tangent tangent_times(const Tangent& v, const Tangent& w) {
     ++GroupCalls::counts().tangent;
     return G::tangent_times(v, w);
+  }
+  static Tangent tangent_inverse_times(const Tangent& v, const Tangent& w) {
+    ++GroupCalls::counts().tangent_inverse;
+    return G::tangent_inverse_times(v, w);
   }
   template <class Matrix>
   static auto times_tangent(const Matrix& A, const Tangent& v) {

@@ -44,6 +44,9 @@ struct DirectProduct {
   static Tangent tangent_times(const Tangent& v, const Tangent& w) {
     return join(A::tangent_times(head(v), head(w)), B::tangent_times(tail(v), tail(w)));
   }
+  static Tangent tangent_inverse_times(const Tangent& v, const Tangent& w) {
+    return join(A::tangent_inverse_times(head(v), head(w)), B::tangent_inverse_times(tail(v), tail(w)));
+  }
   template <class Derived>
   static Eigen::Matrix<Scalar, Derived::RowsAtCompileTime, dimension> times_tangent(
       const Eigen::MatrixBase<Derived>& M, const Tangent& v) {

@@ -19,6 +19,7 @@ namespace liebench {
 //   tangent(v)           T(v) = dexp_{-v}, m x m: d exp(v~) = exp(v~) (T(v) dv)~
 //   tangent_inverse(v)   T(v)^{-1}; singular where a rotation angle is 2 pi
 //   tangent_times(v, w)  T(v) w, by vector products
+//   tangent_inverse_times(v, w)   T(v)^{-1} w, by vector products
 //   times_tangent(A, v)  A T(v) for A with m columns, without the products that the structure of T makes trivial
 //   represented(q)       what q stands for, an element of the group Represented: rotation matrices and positions.
 //                        Elements of different groups are compared through it. Its group law need not be that
@@ -52,6 +53,7 @@ concept LieGroup = Scalar<typename G::Scalar> && std::copyable<typename G::Eleme
   { G::tangent(v) } -> std::same_as<typename G::TangentMatrix>;
   { G::tangent_inverse(v) } -> std::same_as<typename G::TangentMatrix>;
   { G::tangent_times(v, v) } -> std::same_as<typename G::Tangent>;
+  { G::tangent_inverse_times(v, v) } -> std::same_as<typename G::Tangent>;
   { G::times_tangent(two_rows, v) } -> std::same_as<Eigen::Matrix<typename G::Scalar, 2, G::dimension>>;
   { G::represented(q) } -> std::same_as<typename G::Represented::Element>;
   { G::representative(G::represented(q)) } -> std::same_as<typename G::Element>;
@@ -91,6 +93,7 @@ concept SizedLieGroup = Scalar<typename G::Scalar> && std::copyable<typename G::
   { group.commutator(v, v) } -> std::same_as<typename G::Tangent>;
   { group.ad(v) } -> std::same_as<typename G::TangentMatrix>;
   { group.tangent_times(v, v) } -> std::same_as<typename G::Tangent>;
+  { group.tangent_inverse_times(v, v) } -> std::same_as<typename G::Tangent>;
   { group.rotation_angle(v) } -> std::same_as<typename G::Scalar>;
 };
 

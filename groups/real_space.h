@@ -30,6 +30,7 @@ struct RealSpace {
   static TangentMatrix tangent(const Tangent&) { return TangentMatrix::Identity(); }
   static TangentMatrix tangent_inverse(const Tangent&) { return TangentMatrix::Identity(); }
   static Tangent tangent_times(const Tangent&, const Tangent& w) { return w; }
+  static Tangent tangent_inverse_times(const Tangent&, const Tangent& w) { return w; }
   template <class Derived>
   static Eigen::Matrix<T, Derived::RowsAtCompileTime, n> times_tangent(const Eigen::MatrixBase<Derived>& A,
                                                                        const Tangent&) {

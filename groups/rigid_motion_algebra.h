@@ -71,16 +71,15 @@ struct RigidMotionAlgebra {
         skew_polynomial_derivative<T>(omega, shift(v), T(0.5), T(0.0), d, cotangent_slope<T>(x_squared)));
   }
 
-  // (F a + D alpha, F alpha) for w = (a, alpha), by vector products
   static Tangent tangent_times(const Tangent& v, const Tangent& w) {
-    const Vector U = shift(v), omega = turn(v);
-    const T x_squared = omega.squaredNorm(), rate = omega.dot(U);
-    const T minus_b = -sinc_versine<T>(x_squared).versine, c = sine_defect<T>(x_squared);
-    const Vector a_once = omega.cross(shift(w)), once = omega.cross(turn(w)), across = U.cross(turn(w));
-    const Vector twice = omega.cross(once);
-    return join(shift(w) + minus_b * (a_once + across) + c * (omega.cross(a_once + across) + U.cross(once)) +
-                    rate * (versine_slope<T>(x_squared) * once - sine_defect_slope<T>(x_squared) * twice),
-                turn(w) + minus_b * once + c * twice);
+    const T x_squared = turn(v).squaredNorm();
+    return polynomial_times(v, w, T(-sinc_versine<T>(x_squared).versine), versine_slope<T>(x_squared),
+                            sine_defect<T>(x_squared), T(-sine_defect_slope<T>(x_squared)));
+  }
+  static Tangent tangent_inverse_times(const Tangent& v, const Tangent& w) {
+    const T x_squared = turn(v).squaredNorm();
+    return polynomial_times(v, w, T(0.5), T(0.0), cotangent_defect<T>(x_squared),
+                            cotangent_slope<T>(x_squared));
   }
 
   // [A1 F, A1 D + A2 F] for A = [A1, A2]
@@ -117,6 +116,19 @@ struct RigidMotionAlgebra {
   }
 
  private:
+  // (F a + D alpha, F alpha) for w = (a, alpha), F = I + f skew(Omega) + g skew(Omega)^2 and D its derivative along U, by vector
+  // products; slopes as in skew_polynomial_derivative.
+  static Tangent polynomial_times(const Tangent& v, const Tangent& w, const T& f, const T& f_slope, const T& g,
+                                  const T& g_slope) {
+    const Vector U = shift(v), omega = turn(v);
+    const T rate = omega.dot(U);
+    const Vector a_once = omega.cross(shift(w)), once = omega.cross(turn(w)), across = U.cross(turn(w));
+    const Vector twice = omega.cross(once);
+    return join(shift(w) + f * (a_once + across) + g * (omega.cross(a_once + across) + U.cross(once)) +
+                    rate * (f_slope * once + g_slope * twice),
+                turn(w) + f * once + g * twice);
+  }
+
   struct TangentBlocks {
     Matrix diagonal, upper;
   };

@@ -59,6 +59,11 @@ struct RotationAlgebra {
     return w - sinc_versine<T>(x_squared).versine * once + sine_defect<T>(x_squared) * v.cross(once);
   }
 
+  static Tangent tangent_inverse_times(const Tangent& v, const Tangent& w) {
+    const Tangent once = v.cross(w);
+    return w + T(0.5) * once + cotangent_defect<T>(v.squaredNorm()) * v.cross(once);
+  }
+
   template <class Derived>
   static Eigen::Matrix<T, Derived::RowsAtCompileTime, 3> times_tangent(const Eigen::MatrixBase<Derived>& A,
                                                                        const Tangent& v) {

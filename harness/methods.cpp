@@ -19,7 +19,8 @@ std::vector<std::string> words(const OptionInfo& info) {
 
 template <class... Methods>
 std::vector<MethodInfo> infos(IntegratorList<Methods...>) {
-  return {MethodInfo{Methods::name, Methods::summary, Methods::option_list}...};
+  return {MethodInfo{Methods::name, Methods::summary, Methods::fits, Methods::option_list, &Methods::title,
+                     &Methods::orders}...};
 }
 
 }  // namespace
@@ -27,6 +28,33 @@ std::vector<MethodInfo> infos(IntegratorList<Methods...>) {
 const std::vector<MethodInfo>& methods() {
   static const std::vector<MethodInfo> list = infos(Integrators{});
   return list;
+}
+
+const MethodInfo* find_method(std::string_view name) {
+  const auto place =
+      std::find_if(methods().begin(), methods().end(), [&](const MethodInfo& m) { return m.name == name; });
+  return place == methods().end() ? nullptr : &*place;
+}
+
+std::string_view fits_text(Fits fits) {
+  switch (fits) {
+    case Fits::every_system:
+      return "every problem";
+    case Fits::without_constraints:
+      return "problems without constraints";
+    case Fits::with_constraints:
+      break;
+  }
+  return "problems with constraints";
+}
+
+std::string misfit(const MethodInfo& method, bool constrained) {
+  if (fits(method.fits, constrained)) return {};
+  std::vector<std::string> fitting;
+  for (const MethodInfo& other : methods())
+    if (fits(other.fits, constrained)) fitting.emplace_back(other.name);
+  return fmt::format("{} integrates {}; this one has {}. What fits it: {}", method.name,
+                     fits_text(method.fits), constrained ? "constraints" : "none", quoted_list(fitting));
 }
 
 OptionValue option_value(const OptionInfo& info, const JsonView& view) {
@@ -119,6 +147,14 @@ Json options_to_json(const MethodInfo& method, const OptionValues& values) {
     if (const auto place = values.all().find(info.name); place != values.all().end())
       std::visit([&](const auto& value) { j[std::string(info.name)] = value; }, place->second);
   return j;
+}
+
+OptionValues options_from_json(const MethodInfo& method, const Json& json) {
+  OptionValues values;
+  for (const OptionInfo& info : method.options)
+    if (const std::string key(info.name); json.contains(key))
+      values.set(key, option_value(info, JsonView(json.at(key), "/options/" + key)));
+  return values;
 }
 
 }  // namespace liebench

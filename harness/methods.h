@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/strict_json.h"
+#include "integrators/fits.h"
 #include "integrators/option.h"
 
 // The integrators of integrators/list.h, seen from the harness: names and options, and options from and to
@@ -16,10 +17,20 @@ namespace liebench {
 struct MethodInfo {
   std::string_view name;
   std::string_view summary;
+  Fits fits;
   std::span<const OptionInfo> options;
+  std::string (*title)(const OptionValues&);  // "BLieDF2nd, k = 3"
+  ConvergenceOrders (*orders)(const OptionValues&);
 };
 
 const std::vector<MethodInfo>& methods();
+// Null where no method has this name.
+const MethodInfo* find_method(std::string_view name);
+
+// Why a method does not integrate a system with or without constraints, and which do; empty where it does.
+std::string misfit(const MethodInfo& method, bool constrained);
+// What it integrates: "problems without constraints".
+std::string_view fits_text(Fits fits);
 
 // The checked value of one option. Throws InputError.
 OptionValue option_value(const OptionInfo& info, const JsonView& view);
@@ -37,7 +48,8 @@ std::string scope_text(const OptionInfo& info);
 // What an option takes: `an integer from 1 to 4`, `true or false`.
 std::string allowed_values(const OptionInfo& info);
 
-// All options that are there, in the order of the method's list.
+// All options that are there, in the order of the method's list; and back from a record.
 Json options_to_json(const MethodInfo& method, const OptionValues& values);
+OptionValues options_from_json(const MethodInfo& method, const Json& json);
 
 }  // namespace liebench

@@ -6,13 +6,23 @@
 #include <cmath>
 #include <map>
 
+#include "harness/errors.h"
+#include "harness/methods.h"
+
 namespace liebench {
 
 namespace {
 
-std::string form_name(const CurveIdentity& identity) {
-  const Json& options = *identity.options;
-  if (!options.contains("form")) return "unconstrained";
+bool constrained(const Curve& curve) {
+  if (curve.identity->options->contains("form")) return true;
+  return std::any_of(curve.records.begin(), curve.records.end(), [](const RecordRow* record) {
+    return error_of(*record, {"lambda", "end_relative"}).has_value();
+  });
+}
+
+std::string form_name(const Curve& curve) {
+  const Json& options = *curve.identity->options;
+  if (!options.contains("form")) return constrained(curve) ? "its own" : "unconstrained";
   if (options.at("form") == "stabilized_index2") return "stabilized index 2";
   return options.at("modified_start") == true ? "index 3, modified start" : "index 3";
 }
@@ -42,28 +52,22 @@ const std::vector<std::pair<Quantity, std::string>>& quantities() {
 }  // namespace
 
 std::string method_name(const CurveIdentity& identity) {
-  const Json& options = *identity.options;
-  if (identity.integrator == "generalized_alpha")
-    return fmt::format("generalized-alpha, rho_inf = {}", options.at("rho_inf").get<double>());
-  const int k = options.at("k").get<int>();
-  if (identity.integrator == "faltinsen_bdf")
-    return fmt::format("Faltinsen BDF {}, k = {}", options.at("variant").get<std::string>(), k);
-  const Json& correction = options.at("correction");
-  const char* suffix = correction == "implicit" ? ", L_k implicit" : correction == false ? ", L_k = 0" : "";
-  return fmt::format("BLieDF2nd, k = {}{}", k, suffix);
+  const MethodInfo* method = find_method(identity.integrator);
+  // A record of a program that has more methods.
+  if (method == nullptr) return identity.integrator;
+  return method->title(options_from_json(*method, *identity.options));
 }
 
 int expected_order(const CurveIdentity& identity, const Quantity& quantity) {
   const Json& options = *identity.options;
-  int order = 2;
-  if (options.contains("k")) {
-    order = options.at("k").get<int>();
-    if (options.contains("correction") && options.at("correction") == false) order = std::min(order, 2);
-  }
-  const bool reduced = quantity.component == "lambda" && quantity.norm == "max_absolute" &&
-                       options.contains("form") && options.at("form") == "index3" &&
+  const MethodInfo* method = find_method(identity.integrator);
+  if (method == nullptr)
+    throw InputError(identity.integrator, "this program has no such integrator, and so no order to expect of it");
+  const ConvergenceOrders orders = method->orders(options_from_json(*method, options));
+  if (quantity.component != "lambda") return quantity.component == "q" ? orders.q : orders.v;
+  const bool reduced = quantity.norm == "max_absolute" && options.contains("modified_start") &&
                        options.at("modified_start") == false && !body_fixed(identity);
-  return reduced ? order - 1 : order;
+  return reduced ? orders.lambda - 1 : orders.lambda;
 }
 
 Judgement judge(const Curve& curve, const Quantity& quantity, int expected) {
@@ -101,19 +105,19 @@ OrderMatrix order_matrix(const std::vector<RecordRow>& records) {
   for (const Curve& curve : curves(records)) {
     const CurveIdentity& id = *curve.identity;
     const std::string& formulation = id.formulation;
-    const bool constrained = id.options->contains("form");
+    const bool has_lambda = constrained(curve);
     if (!tables.contains(formulation)) {
       order.push_back(formulation);
       std::vector<Column> columns{{.header = "method"}, {.header = "form"}};
       for (const auto& [quantity, title] : quantities())
-        if (constrained || quantity.component != "lambda") columns.push_back({.header = title});
+        if (has_lambda || quantity.component != "lambda") columns.push_back({.header = title});
       columns.push_back({.header = "window in h", .unit = "s"});
       tables.emplace(formulation, Table("", columns));
     }
-    Row line{method_name(id), form_name(id)};
+    Row line{method_name(id), form_name(curve)};
     double h_min = 0.0, h_max = 0.0;
     for (const auto& [quantity, title] : quantities()) {
-      if (!constrained && quantity.component == "lambda") continue;
+      if (!has_lambda && quantity.component == "lambda") continue;
       const int expected = expected_order(id, quantity);
       const Judgement judgement = judge(curve, quantity, expected);
       ++matrix.entries;
@@ -121,7 +125,7 @@ OrderMatrix order_matrix(const std::vector<RecordRow>& records) {
       line.push_back(measured(judgement, expected));
       Row row{formulation,
               method_name(id),
-              form_name(id),
+              form_name(curve),
               id.start,
               describe(quantity),
               std::int64_t(expected),

@@ -181,6 +181,16 @@ void require_scopes(const std::vector<ProblemChoice>& problems, const std::vecto
     }
 }
 
+// Every method must integrate every problem of the study.
+void require_fits(const std::vector<ProblemChoice>& problems, const std::vector<MethodChoice>& methods) {
+  for (const MethodChoice& choice : methods)
+    for (const ProblemChoice& problem : problems)
+      if (const std::string reason = misfit(*choice.method, problem.formulation->constraints > 0);
+          !reason.empty())
+        throw InputError(choice.entry["name"].pointer(),
+                         fmt::format("{} in {}: {}", problem.problem->name, problem.formulation->name, reason));
+}
+
 double positive_step(const JsonView& view) {
   const double h = view.number("a positive step size in s");
   if (!(h > 0.0)) view.reject("a positive step size in s");
@@ -316,6 +326,7 @@ Study read_study(const Json& json) {
                           ? Start::reference
                           : Start::self;
   const auto method_choices = read_methods(root["integrators"], start);
+  require_fits(problem_choices, method_choices);
   require_scopes(problem_choices, method_choices);
   const auto sizes = read_step_sizes(root["step_sizes"]);
   const Interval interval = read_interval(root);

@@ -10,6 +10,7 @@
 
 #include "integrators/audit.h"
 #include "integrators/erased_system.h"
+#include "integrators/fits.h"
 #include "integrators/list.h"
 #include "integrators/outcome.h"
 #include "integrators/run_time_system.h"
@@ -152,7 +153,7 @@ struct OptionsOf<IntegratorList<Methods...>> {
 }  // namespace detail
 using MethodOptions = detail::OptionsOf<Integrators>::type;
 
-// The stepper of any method; explicitly instantiated where it is compiled once for all (harness/instances). What is not in
+// The stepper of any method, null where it does not fit the system; explicitly instantiated where it is compiled once for all (harness/instances). What is not in
 // double is stepped as a RunTimeSystem: one compilation of all methods serves all systems.
 template <MechanicalSystem S>
 std::unique_ptr<AnyStepper<S>> any_stepper(const MethodOptions& options, const S& system);
@@ -226,8 +227,9 @@ std::unique_ptr<AnyStepper<S>> any_stepper(const MethodOptions& options, const S
     std::unique_ptr<AnyStepper<S>> stepper;
     [&]<class... Methods>(IntegratorList<Methods...>) {
       const auto attempt = [&]<class Method>(IntegratorList<Method>) {
-        if (const auto* own = std::get_if<typename Method::Options>(&options))
-          stepper = held_stepper<Method, S>(*own, system);
+        if constexpr (may_fit<Method, S>())
+          if (const auto* own = std::get_if<typename Method::Options>(&options))
+            stepper = held_stepper<Method, S>(*own, system);
       };
       (attempt(IntegratorList<Methods>{}), ...);
     }(Integrators{});

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "integrators/audit.h"
 #include "integrators/bdf_stepper.h"
+#include "integrators/fits.h"
 #include "integrators/form.h"
 #include "integrators/lie_correction.h"
 #include "integrators/option.h"
@@ -31,6 +34,7 @@ struct BLieDF2nd {
   static constexpr std::string_view name = "bliedf2nd";
   static constexpr std::string_view summary =
       "k-step BDF method of Wieloch & Arnold with one commutator a step as correction L_k";
+  static constexpr Fits fits = Fits::every_system;
   static constexpr auto option_list = std::to_array<OptionInfo>({
       {.name = "k",
        .kind = OptionKind::integer,
@@ -49,6 +53,18 @@ struct BLieDF2nd {
       form_option,
       safeguard_option,
   });
+
+  static std::string title(const OptionValues& values) {
+    const std::string correction = values.is_choice("correction")   ? ", L_k implicit"
+                                   : !values.boolean("correction") ? ", L_k = 0"
+                                                                    : "";
+    return "BLieDF2nd, k = " + std::to_string(values.integer("k")) + correction;
+  }
+  static ConvergenceOrders orders(const OptionValues& values) {
+    const int k = values.integer("k");
+    const bool corrected = values.is_choice("correction") || values.boolean("correction");
+    return same_order(corrected ? k : std::min(k, 2));
+  }
 
   struct Options {
     int k = 2;

@@ -94,6 +94,10 @@ class ErasedBlockSystem final : public AnySystem<typename S::Scalar> {
     GroupCalls::counts().tangent += bodies();
     return system_.group().tangent_times(v, w);
   }
+  Vector tangent_inverse_times(const Vector& v, const Vector& w) const override {
+    GroupCalls::counts().tangent_inverse += bodies();
+    return system_.group().tangent_inverse_times(v, w);
+  }
   T rotation_angle(const Vector& v) const override { return system_.group().rotation_angle(v); }
 
   Vector momentum(const Vector& q, const Vector& w) const override { return system_.momentum(q, w); }
@@ -126,6 +130,12 @@ class ErasedBlockSystem final : public AnySystem<typename S::Scalar> {
       return solve_sparse_saddle_point(system_, system_, q, a, b, x, y, audit);
     else
       return solve_sparse_saddle_point(system_, linear_->system_, q, a, b, x, y, audit);
+  }
+
+  bool constant_mass() const override { return false; }
+  bool mass_solve(const Vector& q, const Vector& a, Vector& x, KernelAudit& audit) const override {
+    Vector none;
+    return saddle_point(q, a, Vector::Constant(multipliers(), T(0.0)), x, none, audit);
   }
 
   const AnySystem<Linear>& linear() const override {

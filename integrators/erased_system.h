@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "integrators/consistent_projection.h"
+#include "integrators/mass_solver.h"
 #include "integrators/run_time_system.h"
 #include "integrators/step_matrix.h"
 
@@ -67,6 +68,8 @@ class ErasedSystem final : public AnySystem<typename S::Scalar> {
   using typename Base::Vector;
 
   explicit ErasedSystem(const S& system) : system_(system) {
+    NoAudit unused;
+    mass_.prepare(system_, unused);
     if constexpr (!std::is_same_v<T, Linear>)
       linear_ = std::make_unique<ErasedSystem<LinearSystem>>(system.template cast<Linear>());
   }
@@ -88,6 +91,9 @@ class ErasedSystem final : public AnySystem<typename S::Scalar> {
     return BlockDiagonal<T>({Group::tangent_inverse(v)});
   }
   Vector tangent_times(const Vector& v, const Vector& w) const override { return Group::tangent_times(v, w); }
+  Vector tangent_inverse_times(const Vector& v, const Vector& w) const override {
+    return Group::tangent_inverse_times(v, w);
+  }
   T rotation_angle(const Vector& v) const override { return Group::rotation_angle(v); }
 
   Vector momentum(const Vector& q, const Vector& w) const override { return system_.momentum(element(q), w); }
@@ -146,6 +152,15 @@ class ErasedSystem final : public AnySystem<typename S::Scalar> {
     }
   }
 
+  bool constant_mass() const override { return S::constant_mass; }
+  bool mass_solve(const Vector& q, const Vector& a, Vector& x, KernelAudit& audit) const override {
+    MassSolver<S> mass = mass_;
+    Velocity<S> solution;
+    if (!mass.solve(system_, element(q), a, solution, audit)) return false;
+    x = solution;
+    return true;
+  }
+
   const AnySystem<Linear>& linear() const override {
     if constexpr (std::is_same_v<T, Linear>)
       return *this;
@@ -166,6 +181,7 @@ class ErasedSystem final : public AnySystem<typename S::Scalar> {
   static typename Group::Element element(const Vector& q) { return Group::unstacked(q); }
 
   S system_;
+  MassSolver<S> mass_;
   std::unique_ptr<ErasedSystem<LinearSystem>> linear_;
 };
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "integrators/audit.h"
 #include "integrators/bdf_stepper.h"
 #include "integrators/faltinsen_kinematics.h"
+#include "integrators/fits.h"
 #include "integrators/form.h"
 #include "integrators/lie_correction.h"
 #include "integrators/option.h"
@@ -26,6 +28,7 @@ struct FaltinsenBdf {
   static constexpr std::string_view summary =
       "k-step BDF method of Faltinsen, Marthinsen & Munthe-Kaas in canonical coordinates that move with the "
       "step";
+  static constexpr Fits fits = Fits::every_system;
   static constexpr auto option_list = std::to_array<OptionInfo>({
       {.name = "k",
        .kind = OptionKind::integer,
@@ -42,6 +45,11 @@ struct FaltinsenBdf {
       form_option,
       safeguard_option,
   });
+
+  static std::string title(const OptionValues& values) {
+    return "Faltinsen BDF " + values.choice("variant") + ", k = " + std::to_string(values.integer("k"));
+  }
+  static ConvergenceOrders orders(const OptionValues& values) { return same_order(values.integer("k")); }
 
   enum class Variant { exact, bch };
   struct Options {

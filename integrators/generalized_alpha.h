@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -11,6 +12,7 @@
 #include "integrators/audit.h"
 #include "integrators/basic_stepper.h"
 #include "integrators/consistent_projection.h"
+#include "integrators/fits.h"
 #include "integrators/form.h"
 #include "integrators/history.h"
 #include "integrators/inlining.h"
@@ -42,6 +44,7 @@ struct GeneralizedAlpha {
   static constexpr std::string_view name = "generalized_alpha";
   static constexpr std::string_view summary =
       "Lie group generalized-alpha method of Bruels & Cardona, order 2, with controlled numerical damping";
+  static constexpr Fits fits = Fits::every_system;
   static constexpr auto option_list = std::to_array<OptionInfo>({
       {.name = "rho_inf",
        .kind = OptionKind::real,
@@ -53,6 +56,11 @@ struct GeneralizedAlpha {
       form_option,
       safeguard_option,
   });
+
+  static std::string title(const OptionValues& values) {
+    return "generalized-alpha, rho_inf = " + decimal_text(values.real("rho_inf"));
+  }
+  static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
 
   struct Options {
     double rho_inf = 0.9;

@@ -1,8 +1,11 @@
 #pragma once
 
 #include "integrators/bliedf2nd.h"
+#include "integrators/commutator_free.h"
+#include "integrators/crouch_grossman.h"
 #include "integrators/faltinsen_bdf.h"
 #include "integrators/generalized_alpha.h"
+#include "integrators/rkmk.h"
 
 namespace liebench {
 
@@ -11,6 +14,6 @@ struct IntegratorList {};
 
 // Every integrator of the program. A method that is not in this list is nowhere; one that is in it is in
 // every command.
-using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf>;
+using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, Rkmk, CommutatorFree, CrouchGrossman>;
 
 }  // namespace liebench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <charconv>
 #include <map>
 #include <optional>
 #include <string>
@@ -59,5 +60,12 @@ class OptionValues {
   const OptionValue& at(std::string_view name) const { return values_.find(name)->second; }
   std::map<std::string, OptionValue, std::less<>> values_;
 };
+
+// The shortest decimal that reads back as x.
+inline std::string decimal_text(double x) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), x).ptr;
+  return {text.data(), end};
+}
 
 }  // namespace liebench

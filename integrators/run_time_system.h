@@ -61,6 +61,7 @@ class AnySystem {
   virtual BlockDiagonal<T> ad(const Vector& v) const = 0;
   virtual BlockDiagonal<T> tangent_inverse(const Vector& v) const = 0;
   virtual Vector tangent_times(const Vector& v, const Vector& w) const = 0;
+  virtual Vector tangent_inverse_times(const Vector& v, const Vector& w) const = 0;
   virtual T rotation_angle(const Vector& v) const = 0;
 
   virtual Vector momentum(const Vector& q, const Vector& w) const = 0;
@@ -77,6 +78,10 @@ class AnySystem {
   // [M B^T; B 0] [x; y] = [a; b]; false where it is singular.
   virtual bool saddle_point(const Vector& q, const Vector& a, const Vector& b, Vector& x, Vector& y,
                             KernelAudit& audit) const = 0;
+
+  // Whether M depends on nothing, and x with M(q) x = a; see integrators/mass_solver.h.
+  virtual bool constant_mass() const = 0;
+  virtual bool mass_solve(const Vector& q, const Vector& a, Vector& x, KernelAudit& audit) const = 0;
 
   // The system in the scalar of the linear algebra, and the Newton matrix of such a one.
   virtual const AnySystem<Linear>& linear() const = 0;
@@ -112,6 +117,9 @@ class RunTimeGroup {
   TangentMatrix ad(const Tangent& v) const { return system_->ad(v); }
   TangentMatrix tangent_inverse(const Tangent& v) const { return system_->tangent_inverse(v); }
   Tangent tangent_times(const Tangent& v, const Tangent& w) const { return system_->tangent_times(v, w); }
+  Tangent tangent_inverse_times(const Tangent& v, const Tangent& w) const {
+    return system_->tangent_inverse_times(v, w);
+  }
   Scalar rotation_angle(const Tangent& v) const { return system_->rotation_angle(v); }
   static const Element& stacked(const Element& q) { return q; }
 
@@ -161,6 +169,11 @@ class RunTimeSystem {
       KernelAudit unused;
       return system_->saddle_point(q, a, b, x, y, unused);
     }
+  }
+
+  bool constant_mass() const { return system_->constant_mass(); }
+  bool mass_solve(const Vector& q, const Vector& a, Vector& x, KernelAudit& audit) const {
+    return system_->mass_solve(q, a, x, audit);
   }
 
   template <Form form>

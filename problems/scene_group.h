@@ -100,6 +100,13 @@ class SceneGroup {
     });
     return result;
   }
+  Tangent tangent_inverse_times(const Tangent& v, const Tangent& w) const {
+    Tangent result(size());
+    each([&]<class G>(G, const Body<T>& b) {
+      part<G>(result, b) = G::tangent_inverse_times(part<G>(v, b), part<G>(w, b));
+    });
+    return result;
+  }
   TangentMatrix ad(const Tangent& v) const {
     return blocks([&]<class G>(G, const Body<T>& b) { return G::ad(part<G>(v, b)); });
   }

@@ -60,7 +60,8 @@ std::string default_text(const OptionInfo& info) {
 }
 
 void describe_method(const MethodInfo& method) {
-  fmt::print("{}: {}\n\nOptions:\n", method.name, method.summary);
+  fmt::print("{}: {}\n\nIntegrates {}.\n\n{}\n", method.name, method.summary, fits_text(method.fits),
+             method.options.empty() ? "No options." : "Options:");
   for (const OptionInfo& info : method.options)
     fmt::print("  {:<18} {}\n  {:<18} {}; default {}{}{}\n", info.name, info.meaning, "",
                allowed_values(info), default_text(info),

@@ -22,11 +22,12 @@ MethodOptions method_options(const std::string& integrator, const std::vector<st
                              bool constrained) {
   std::vector<std::string> names;
   for (const MethodInfo& method : methods()) names.emplace_back(method.name);
-  const auto method = std::find_if(methods().begin(), methods().end(),
-                                   [&](const MethodInfo& m) { return m.name == integrator; });
-  if (method == methods().end())
+  const MethodInfo* method = find_method(integrator);
+  if (method == nullptr)
     throw InputError("--integrator", fmt::format("\"{}\" is not an integrator; allowed: {}{}", integrator,
                                                  quoted_list(names), suggestion(integrator, names)));
+  if (const std::string reason = misfit(*method, constrained); !reason.empty())
+    throw InputError("--integrator", reason);
   std::vector<std::string> keys;
   for (const OptionInfo& info : method->options) keys.emplace_back(info.name);
   OptionValues values;

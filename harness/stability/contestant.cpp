@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "harness/order_matrix.h"
-#include "harness/record_row.h"
 #include "integrators/bdf_coefficients.h"
 
 namespace liebench {
@@ -44,11 +42,7 @@ int Contestant::steps() const {
 }
 
 int Contestant::order() const {
-  if (!options.has("k")) return 2;
-  const int k = options.integer("k");
-  return options.has("correction") && !options.is_choice("correction") && !options.boolean("correction")
-             ? std::min(k, 2)
-             : k;
+  return method->orders(options).q;
 }
 
 std::string_view Contestant::correction() const {
@@ -74,18 +68,14 @@ OptionValues Contestant::options_for(std::string_view form, bool modified_start)
 
 Contestant contestant(std::string_view integrator,
                       const std::vector<std::pair<std::string, OptionValue>>& options) {
-  const auto method = std::find_if(methods().begin(), methods().end(),
-                                   [&](const MethodInfo& m) { return m.name == integrator; });
-  if (method == methods().end()) throw std::logic_error("no integrator " + std::string(integrator));
+  const MethodInfo* method = find_method(integrator);
+  if (method == nullptr) throw std::logic_error("no integrator " + std::string(integrator));
   Contestant result;
-  result.method = &*method;
+  result.method = method;
   for (const OptionInfo& info : method->options)
     if (info.scope == OptionScope::everywhere) result.options.set(info.name, option_default(info));
   for (const auto& [key, value] : options) result.options.set(key, value);
-  CurveIdentity identity;
-  identity.integrator = std::string(integrator);
-  identity.options = SharedJson(options_to_json(*method, result.options));
-  result.name = method_name(identity);
+  result.name = method->title(result.options);
   return result;
 }
 

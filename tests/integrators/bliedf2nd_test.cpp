@@ -26,8 +26,6 @@
 namespace liebench::bliedf2nd_test {
 namespace {
 
-static_assert(std::same_as<Integrators, IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf>>);
-
 constexpr int most_steps = 6;
 constexpr std::array corrections{Correction::none, Correction::explicit_term, Correction::implicit_term};
 

@@ -40,6 +40,7 @@ class AnyGroup {
   virtual Matrix tangent(const Vector& v) const = 0;
   virtual Matrix tangent_inverse(const Vector& v) const = 0;
   virtual Vector tangent_times(const Vector& v, const Vector& w) const = 0;
+  virtual Vector tangent_inverse_times(const Vector& v, const Vector& w) const = 0;
   // For A of four rows.
   virtual Matrix times_tangent(const Matrix& A, const Vector& v) const = 0;
   virtual Vector represented(const Vector& q) const = 0;
@@ -104,6 +105,9 @@ class HeldGroup final : public AnyGroup<typename G::Scalar> {
   Matrix tangent(const Vector& v) const override { return G::tangent(v); }
   Matrix tangent_inverse(const Vector& v) const override { return G::tangent_inverse(v); }
   Vector tangent_times(const Vector& v, const Vector& w) const override { return G::tangent_times(v, w); }
+  Vector tangent_inverse_times(const Vector& v, const Vector& w) const override {
+    return G::tangent_inverse_times(v, w);
+  }
   Matrix times_tangent(const Matrix& A, const Vector& v) const override {
     return G::times_tangent(Eigen::Matrix<T, 4, G::dimension>(A), v);
   }

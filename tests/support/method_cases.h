@@ -82,10 +82,11 @@ struct MethodCase {
 template <class Method, MechanicalSystem S>
 std::vector<MethodCase<S>> cases_of() {
   std::vector<MethodCase<S>> cases;
-  for (const OptionValues& values : option_combinations<Method>(S::constraints > 0))
-    cases.push_back({Method::name, values, [options = Method::options(values)](const S& system) {
-                       return make_stepper<Method, S>(options, system);
-                     }});
+  if constexpr (may_fit<Method, S>())
+    for (const OptionValues& values : option_combinations<Method>(S::constraints > 0))
+      cases.push_back({Method::name, values, [options = Method::options(values)](const S& system) {
+                         return make_stepper<Method, S>(options, system);
+                       }});
   return cases;
 }
 

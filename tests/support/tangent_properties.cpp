@@ -128,6 +128,18 @@ std::vector<Property<T>> tangent_properties() {
                        << angle;
            }},
 
+          {"TangentInverseTimesIsTheProductWithTheMatrix",
+           [](const GroupSamples<T>& S) {
+             const AnyGroup<T>& G = S.group();
+             const auto others = S.tangents(T(1.5));
+             for (const double angle : S.angles())
+               for (const auto& v : S.tangents(T(angle)))
+                 for (const auto& w : others)
+                   EXPECT_LE(S.length(G.tangent_inverse_times(v, w) - G.tangent_inverse(v) * w),
+                             S.few * S.eps() * (1 + S.length(v)) * S.length(w))
+                       << angle;
+           }},
+
           {"DerivativesAtZeroAreFiniteAndRight",
            [](const GroupSamples<T>& S) {
              const AnyGroup<double>& D = S.group().doubles();

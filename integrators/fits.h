@@ -1,0 +1,30 @@
+#pragma once
+
+#include "problems/system.h"
+
+namespace liebench {
+
+// The systems that a method integrates.
+enum class Fits { every_system, without_constraints, with_constraints };
+
+constexpr bool fits(Fits method, bool constrained) {
+  return method == Fits::every_system || (method == Fits::with_constraints) == constrained;
+}
+
+// Whether a system of the type S may be one of them: of a size known at run time it is known at run time only.
+template <class Method, MechanicalSystem S>
+constexpr bool may_fit() {
+  return S::constraints == run_time_size || fits(Method::fits, S::constraints != 0);
+}
+
+// Expected orders of convergence of the global error. Of lambda: that of the end of an interval; docs/theory.md, "Expected orders",
+// has the transient phase.
+struct ConvergenceOrders {
+  int q, v, lambda;
+};
+
+constexpr ConvergenceOrders same_order(int p) {
+  return {p, p, p};
+}
+
+}  // namespace liebench

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "integrators/outcome.h"
+#include "integrators/runge_kutta_tableau.h"
+#include "problems/system.h"
+
+namespace liebench {
+
+// A rotation by pi and more in a step or a stage makes no sense, and by 2 pi has no T^{-1}; and an infinity or a NaN.
+template <MechanicalSystem S>
+Outcome outcome_of_turn(const S& system, const Velocity<S>& theta) {
+  const double angle = to_double(group_of(system).rotation_angle(theta));
+  if (angle < std::numbers::pi) return Outcome::ok;
+  return std::isfinite(angle) ? Outcome::rotation_too_large : Outcome::non_finite;
+}
+
+// One step of a Runge-Kutta-Munthe-Kaas method from (t, q, v) [Munthe-Kaas 1999], for q' = DL_q(e) v~ on G and v' = F(t, q, v) on
+// R^m; Theta_1 = 0:
+//
+//   Theta_i = h sum_j a_ij K_j,  V_i = v_n + h sum_j a_ij F_j,  Q_i = q_n o exp(Theta_i~)
+//   K_i = T^{-1}(Theta_i) V_i,   F_i = F(t_n + c_i h, Q_i, V_i)
+//   q_{n+1} = q_n o exp(h sum_i b_i K_i~),  v_{n+1} = v_n + h sum_i b_i F_i
+//
+// acceleration(t, q, v, F) writes F and says how it went. A step that fails leaves q and v.
+template <const auto& tableau, MechanicalSystem S, class Acceleration>
+StepResult runge_kutta_munthe_kaas_step(const S& system, const typename S::Scalar& t,
+                                        const typename S::Scalar& h, Configuration<S>& q, Velocity<S>& v,
+                                        const Acceleration& acceleration) {
+  using T = typename S::Scalar;
+  constexpr std::size_t stages = tableau.stages;
+  const auto group = group_of(system);
+  std::array<Velocity<S>, stages> K, F;
+  Outcome outcome = acceleration(t, q, v, F[0]);
+  if (outcome != Outcome::ok) return {outcome};
+  K[0] = v;
+  each_stage<1, stages>([&]<std::size_t i>(std::integral_constant<std::size_t, i>) {
+    const Velocity<S> theta = weighted_sum<tableau, i>(h, K);
+    outcome = outcome_of_turn(system, theta);
+    if (outcome != Outcome::ok) return false;
+    const Velocity<S> V = v + weighted_sum<tableau, i>(h, F);
+    outcome = acceleration(T(t + value_of<T>(tableau.c[i]) * h), group.compose(q, group.exp(theta)), V, F[i]);
+    K[i] = group.tangent_inverse_times(theta, V);
+    return outcome == Outcome::ok;
+  });
+  if (outcome != Outcome::ok) return {outcome};
+  const Velocity<S> theta = weighted_sum<tableau, stages>(h, K);
+  outcome = outcome_of_turn(system, theta);
+  if (outcome != Outcome::ok) return {outcome};
+  q = group.compose(q, group.exp(theta));
+  v += weighted_sum<tableau, stages>(h, F);
+  return {};
+}
+
+}  // namespace liebench
