@@ -292,8 +292,8 @@ const std::vector<PaperFigure>& paper_figures() {
       {"faltinsen_bdf", {"faltinsen_bdf.json"}},
       {"correction_stability", {"correction_stability.json"}},
       {"formulations", {"formulations.json"}},
-      {"cost_accuracy", {"cost_accuracy.json"}, true},
-      {"verification", {"verification.json", "verification_own_start.json"}}};
+      {"cost_accuracy", {"cost_accuracy.json", "cost_accuracy_explicit.json"}, true},
+      {"verification", {"verification.json", "verification_own_start.json", "verification_explicit.json"}}};
   return list;
 }
 

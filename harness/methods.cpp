@@ -36,6 +36,11 @@ const MethodInfo* find_method(std::string_view name) {
   return place == methods().end() ? nullptr : &*place;
 }
 
+bool has_option(const MethodInfo& method, std::string_view option) {
+  return std::any_of(method.options.begin(), method.options.end(),
+                     [&](const OptionInfo& info) { return info.name == option; });
+}
+
 std::string_view fits_text(Fits fits) {
   switch (fits) {
     case Fits::every_system:

@@ -27,6 +27,8 @@ const std::vector<MethodInfo>& methods();
 // Null where no method has this name.
 const MethodInfo* find_method(std::string_view name);
 
+bool has_option(const MethodInfo& method, std::string_view option);
+
 // Why a method does not integrate a system with or without constraints, and which do; empty where it does.
 std::string misfit(const MethodInfo& method, bool constrained);
 // What it integrates: "problems without constraints".

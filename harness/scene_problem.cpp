@@ -167,8 +167,13 @@ class PreparedScene final : public PreparedProblem {
     RunResult result = precision == Precision::extended
                            ? compared<Extended>(request, run_time_system<Extended>())
                            : counted(request);
-    const Form form = std::visit([](const auto& o) { return o.form; }, detail::options_of(request));
-    result.solver = with_scene(scene_, [&](const auto& system) { return newton_solver(system, form); });
+    std::visit(
+        [&]<class Options>(const Options& options) {
+          if constexpr (requires { options.form; })
+            result.solver =
+                with_scene(scene_, [&](const auto& system) { return newton_solver(system, options.form); });
+        },
+        detail::options_of(request));
     return result;
   }
   std::unique_ptr<TimedRun> timed(std::string_view, const RunRequest& request) const override {

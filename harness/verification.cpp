@@ -192,7 +192,10 @@ std::string matrices(const std::map<std::string, std::vector<RecordRow>>& record
       {"verification_own_start", "Every method, form and formulation, own start",
        "Order k (generalized-alpha: 2) in all components and over the whole interval, from initial values "
        "alone: "
-       "Runge-Kutta-Munthe-Kaas start, modified starting velocities in the index-3 form"}};
+       "Runge-Kutta-Munthe-Kaas start, modified starting velocities in the index-3 form"},
+      {"verification_explicit", "Explicit methods without constraints",
+       "The order of the tableau, of CF4 four and of Crouch-Grossman three, in q and v and over the whole "
+       "interval: on the group as in a linear space"}};
   std::string text;
   Table csv("", order_matrix_columns());
   for (const MatrixSection& section : sections) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "integrators/explicit_stepper.h"
 #include "integrators/fits.h"
@@ -44,36 +45,38 @@ struct CrouchGrossman {
       constexpr std::size_t stages = tableau.stages;
       const auto group = group_of(system);
       std::array<Velocity<S>, stages> V, F;
-      Outcome outcome = Outcome::ok;
-      // q o exp(h w_1 v_1) o ... with the row i of the tableau, of so many factors.
-      const auto product = [&](std::size_t i, std::size_t factors, Configuration<S>& to) {
-        for (std::size_t j = 0; j < factors; ++j) {
+      // q o exp(h w_1 v_1) o ..., w the row i of the tableau, of which i are not zero.
+      const auto product = [&](std::size_t i, Configuration<S>& to) {
+        to = q;
+        for (std::size_t j = 0; j < i; ++j) {
           const Velocity<S> theta = (value_of<T>(tableau.row(i)[j]) * h) * V[j];
-          outcome = outcome_of_turn(system, theta);
-          if (outcome != Outcome::ok) return false;
+          if (const Outcome outcome = outcome_of_turn(system, theta); outcome != Outcome::ok) return outcome;
           to = group.compose(to, group.exp(theta));
         }
-        return true;
+        return Outcome::ok;
+      };
+      // The stages from i on, and the step where there are no more.
+      const auto go_on = [&]<std::size_t i>(const auto& self,
+                                            std::integral_constant<std::size_t, i>) -> Outcome {
+        Configuration<S> Q;
+        if (const Outcome outcome = product(i, Q); outcome != Outcome::ok) return outcome;
+        const Velocity<S> next = v + weighted_sum<tableau, i>(h, F);
+        if constexpr (i == stages) {
+          const Velocity<S> whole = weighted_sum<tableau, i>(h, V);
+          if (const Outcome outcome = outcome_of_turn(system, whole); outcome != Outcome::ok) return outcome;
+          q = Q;
+          v = next;
+          return Outcome::ok;
+        } else {
+          V[i] = next;
+          const T time = t + value_of<T>(tableau.c[i]) * h;
+          if (const Outcome outcome = acceleration(time, Q, V[i], F[i]); outcome != Outcome::ok) return outcome;
+          return self(self, std::integral_constant<std::size_t, i + 1>{});
+        }
       };
       V[0] = v;
-      outcome = acceleration(t, q, v, F[0]);
-      if (outcome != Outcome::ok) return {outcome};
-      each_stage<1, stages>([&]<std::size_t i>(std::integral_constant<std::size_t, i>) {
-        Configuration<S> Q = q;
-        if (!product(i, i, Q)) return false;
-        V[i] = v + weighted_sum<tableau, i>(h, F);
-        outcome = acceleration(T(t + value_of<T>(tableau.c[i]) * h), Q, V[i], F[i]);
-        return outcome == Outcome::ok;
-      });
-      if (outcome != Outcome::ok) return {outcome};
-      const Velocity<S> whole = weighted_sum<tableau, stages>(h, V);
-      outcome = outcome_of_turn(system, whole);
-      if (outcome != Outcome::ok) return {outcome};
-      Configuration<S> next = q;
-      if (!product(stages, stages, next)) return {outcome};
-      q = next;
-      v += weighted_sum<tableau, stages>(h, F);
-      return {};
+      if (const Outcome outcome = acceleration(t, q, v, F[0]); outcome != Outcome::ok) return {outcome};
+      return {go_on(go_on, std::integral_constant<std::size_t, 1>{})};
     }
   };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <type_traits>
 
 #include "integrators/outcome.h"
 #include "integrators/runge_kutta_tableau.h"
@@ -35,25 +36,27 @@ StepResult runge_kutta_munthe_kaas_step(const S& system, const typename S::Scala
   constexpr std::size_t stages = tableau.stages;
   const auto group = group_of(system);
   std::array<Velocity<S>, stages> K, F;
-  Outcome outcome = acceleration(t, q, v, F[0]);
-  if (outcome != Outcome::ok) return {outcome};
-  K[0] = v;
-  each_stage<1, stages>([&]<std::size_t i>(std::integral_constant<std::size_t, i>) {
+  // The stages from i on, and the step where there are no more.
+  const auto go_on = [&]<std::size_t i>(const auto& self, std::integral_constant<std::size_t, i>) -> Outcome {
     const Velocity<S> theta = weighted_sum<tableau, i>(h, K);
-    outcome = outcome_of_turn(system, theta);
-    if (outcome != Outcome::ok) return false;
-    const Velocity<S> V = v + weighted_sum<tableau, i>(h, F);
-    outcome = acceleration(T(t + value_of<T>(tableau.c[i]) * h), group.compose(q, group.exp(theta)), V, F[i]);
-    K[i] = group.tangent_inverse_times(theta, V);
-    return outcome == Outcome::ok;
-  });
-  if (outcome != Outcome::ok) return {outcome};
-  const Velocity<S> theta = weighted_sum<tableau, stages>(h, K);
-  outcome = outcome_of_turn(system, theta);
-  if (outcome != Outcome::ok) return {outcome};
-  q = group.compose(q, group.exp(theta));
-  v += weighted_sum<tableau, stages>(h, F);
-  return {};
+    if (const Outcome outcome = outcome_of_turn(system, theta); outcome != Outcome::ok) return outcome;
+    if constexpr (i == stages) {
+      q = group.compose(q, group.exp(theta));
+      v += weighted_sum<tableau, i>(h, F);
+      return Outcome::ok;
+    } else {
+      const Velocity<S> V = v + weighted_sum<tableau, i>(h, F);
+      const T time = t + value_of<T>(tableau.c[i]) * h;
+      if (const Outcome outcome = acceleration(time, group.compose(q, group.exp(theta)), V, F[i]);
+          outcome != Outcome::ok)
+        return outcome;
+      K[i] = group.tangent_inverse_times(theta, V);
+      return self(self, std::integral_constant<std::size_t, i + 1>{});
+    }
+  };
+  K[0] = v;
+  if (const Outcome outcome = acceleration(t, q, v, F[0]); outcome != Outcome::ok) return {outcome};
+  return {go_on(go_on, std::integral_constant<std::size_t, 1>{})};
 }
 
 }  // namespace liebench

@@ -88,13 +88,4 @@ Slope weighted_sum(const T& h, const std::array<Slope, n>& slopes) {
   return Slope(h * sum);
 }
 
-// visit(integral_constant i), i = first, ..., end - 1, until one is false; whether all were true.
-template <std::size_t first, std::size_t end, class Visitor>
-bool each_stage(const Visitor& visit) {
-  return [&]<std::size_t... i>(std::index_sequence<i...>) {
-    return (visit(std::integral_constant<std::size_t, first + i>{}) && ...);
-  }
-  (std::make_index_sequence<end - first>{});
-}
-
 }  // namespace liebench

@@ -65,8 +65,11 @@ Verdict worst(Verdict a, Verdict b) {
 
 void add_trials(std::vector<Trial>& trials, const std::vector<std::string>& forms, const TrialMaker& make) {
   for (const bool safeguard : {true, false})
-    for (const Contestant& contestant : contestants(safeguard))
-      for (const std::string& form : forms)
+    for (const Contestant& contestant : contestants(safeguard)) {
+      // A method without the option is there once.
+      if (!safeguard && !contestant.can_be_safeguarded()) continue;
+      for (const std::string& form : forms) {
+        if (!fits(contestant.method->fits, !form.empty())) continue;
         if (auto trial = make(contestant, form)) {
           // Of what takes long once is enough.
           if (!safeguard && !trial->quick) continue;
@@ -75,6 +78,8 @@ void add_trials(std::vector<Trial>& trials, const std::vector<std::string>& form
           trial->form = form;
           trials.push_back(std::move(*trial));
         }
+      }
+    }
 }
 
 bool weakly_unstable(const Contestant& method, const std::string& form) {

@@ -4,9 +4,13 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "integrators/bdf_coefficients.h"
+#include "integrators/crouch_grossman.h"
+#include "integrators/form.h"
+#include "integrators/runge_kutta_tableau.h"
 
 namespace liebench {
 
@@ -24,6 +28,18 @@ double bdf_radius(int k, Complex z) {
   for (int i = 1; i <= k; ++i) companion(0, i - 1) = -alpha[std::size_t(i)] / (alpha[0] - z);
   for (int i = 1; i < k; ++i) companion(i, i - 1) = 1.0;
   return largest_eigenvalue(companion);
+}
+
+template <std::size_t s>
+Complex stability_function_of(const ExplicitTableau<s>& tableau, Complex z) {
+  Complex value = 1.0;
+  std::array<Complex, s> stage;
+  for (std::size_t i = 0; i < s; ++i) {
+    stage[i] = 1.0;
+    for (std::size_t j = 0; j < i; ++j) stage[i] += z * value_of<double>(tableau.a[i][j]) * stage[j];
+    value += z * value_of<double>(tableau.b[i]) * stage[i];
+  }
+  return value;
 }
 
 struct Alpha {
@@ -56,11 +72,17 @@ std::optional<double> Contestant::rho_inf() const {
   return options.real("rho_inf");
 }
 
+bool Contestant::can_be_safeguarded() const {
+  return has_option(*method, safeguard_option.name);
+}
+
 OptionValues Contestant::options_for(std::string_view form, bool modified_start) const {
   OptionValues values = options;
   values.set("form", std::string(form.empty() ? "index3" : form));
   values.set("modified_start", modified_start);
   values.set("safeguard", safeguard);
+  for (const std::string_view key : {form_option.name, modified_start_option.name, safeguard_option.name})
+    if (!has_option(*method, key)) values.erase(key);
   for (const OptionInfo& info : method->options)
     if (!applies(info, !form.empty(), values) || goes_without_saying(info, values)) values.erase(info.name);
   return values;
@@ -92,6 +114,10 @@ const std::vector<Contestant>& contestants(bool safeguard) {
       all.push_back(contestant("faltinsen_bdf", {{"k", k}, {"variant", std::string("exact")}}));
     for (const int k : {3, 4})
       all.push_back(contestant("faltinsen_bdf", {{"k", k}, {"variant", std::string("bch")}}));
+    for (const char* tableau : {"rk4", "dopri5", "butcher6"})
+      all.push_back(contestant("rkmk", {{"tableau", std::string(tableau)}}));
+    all.push_back(contestant("commutator_free", {}));
+    all.push_back(contestant("crouch_grossman", {}));
     for (Contestant& each : all) each.safeguard = safeguarded;
     return all;
   };
@@ -99,7 +125,18 @@ const std::vector<Contestant>& contestants(bool safeguard) {
   return safeguard ? safeguarded : plain;
 }
 
+std::optional<Complex> stability_function(const Contestant& method, Complex z) {
+  if (method.is("crouch_grossman")) return stability_function_of(crouch_grossman_three, z);
+  if (method.is("commutator_free")) return stability_function_of(classical_four, z);
+  if (!method.is("rkmk")) return std::nullopt;
+  const std::string& tableau = method.options.choice("tableau");
+  if (tableau == "dopri5") return stability_function_of(dormand_prince_five, z);
+  if (tableau == "butcher6") return stability_function_of(butcher_six, z);
+  return stability_function_of(classical_four, z);
+}
+
 double spectral_radius(const Contestant& method, Complex z) {
+  if (const auto R = stability_function(method, z)) return std::abs(*R);
   if (method.options.has("k")) {
     // A real system of second order has z and its conjugate; both polynomials have roots of the same sizes.
     return bdf_radius(method.steps(), z);
@@ -142,6 +179,7 @@ double truncation_spectral_radius(int k, double angle) {
 }
 
 double velocity_spectral_radius(const Contestant& method, Complex z) {
+  if (const auto R = stability_function(method, z)) return std::abs(*R);
   if (method.options.has("k")) return bdf_radius(method.steps(), z);
   const Alpha p(*method.rho_inf());
   // (v, h a, h v')

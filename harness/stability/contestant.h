@@ -25,6 +25,8 @@ struct Contestant {
   bool is(std::string_view integrator) const { return method->name == integrator; }
   // "explicit", "implicit" or "" where no correction term is computed.
   std::string_view correction() const;
+  // Whether the method has the option `safeguard`, for it solves an equation in each step.
+  bool can_be_safeguarded() const;
   // rho_inf of generalized-alpha.
   std::optional<double> rho_inf() const;
   // All options for a form; "" for a system without constraints. `modified_start`: where it means something.
@@ -43,7 +45,11 @@ Contestant contestant(std::string_view integrator,
 //
 //   k-step BDF         sum_{i=0}^k alpha_i zeta^{k-i} = z zeta^k                      [Hairer & Wanner, Solving ODE II, V.1]
 //   generalized-alpha  amplification matrix of (x, h x', h^2 a)                      [Chung & Hulbert 1993]
+//   explicit           R(z) = 1 + z b^T (I - z A)^{-1} (1, ..., 1) of the tableau   [Hairer & Wanner, IV.2]
 double spectral_radius(const Contestant& method, std::complex<double> z);
+
+// R(z) of an explicit Runge-Kutta method in a linear space; empty for any other.
+std::optional<std::complex<double>> stability_function(const Contestant& method, std::complex<double> z);
 
 // The same of v' = lambda v, z = h lambda, the law of a velocity without restoring force.
 double velocity_spectral_radius(const Contestant& method, std::complex<double> z);

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "harness/errors.h"
+#include "harness/methods.h"
 #include "harness/record.h"
 #include "harness/stability/scaling.h"
 
@@ -162,7 +163,9 @@ std::string safeguard_section(const std::vector<Json>& records) {
 }  // namespace
 
 bool plain(const Json& record) {
-  return record.contains("integrator") && !record.at("options").value("safeguard", false);
+  if (!record.contains("integrator") || record.at("options").value("safeguard", false)) return false;
+  const MethodInfo* method = find_method(record.at("integrator").get<std::string>());
+  return method != nullptr && has_option(*method, "safeguard");
 }
 
 HeatMap stability_map(const std::vector<Json>& records) {

@@ -56,6 +56,12 @@ Finding examine(const Contestant& method, double angle) {
     finding.reason = "no step turns by pi or more: rotation_too_large is the answer";
     return finding;
   }
+  // The largest coefficient of its factors.
+  if (method.is("crouch_grossman") && angle * 24.0 / 17.0 >= std::numbers::pi) {
+    finding.expected = Grade::failed;
+    finding.reason = "its factors turn by up to 24/17 of the step, by pi or more";
+    return finding;
+  }
   if (logarithm >= std::numbers::pi) {
     finding.expected = Grade::failed;
     finding.reason = "its logarithms span k - 1 steps, which turn by pi or more";

@@ -87,6 +87,12 @@ Finding contact(const Contestant& method, const std::string&, double stiffness) 
   finding.reason = fmt::format("the impact takes {:.2g} steps", duration / h);
   // What few steps resolve is a jump of the velocity for the method, and how high it comes back depends on where the jump falls.
   if (duration < 20.0 * h) finding.at_worst = Grade::degraded;
+  if (stability_function(method, 0.0)) {
+    // It sees the ground when it is in it by up to v h, and takes the force there for all of the step.
+    const double kick = stiffness * std::pow(3.13 * h, 1.5) * h / 3.13;
+    finding.reason += fmt::format("; an explicit step turns the force of v h into {:.2g} times the velocity", kick);
+    if (kick > 1.0) finding.at_worst = Grade::failed;
+  }
   if (finding.grade == Grade::failed) return finding;
   // From the ground up: 0.5 m of 9.81 N.
   constexpr double ground = 0.1 * 9.81;

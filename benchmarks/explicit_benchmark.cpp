@@ -1,0 +1,16 @@
+#include "benchmarks/floors/explicit_methods.h"
+#include "benchmarks/step.h"
+
+namespace liebench::benchmarks {
+
+void add_explicit_methods() {
+  using S = HeavyTopSO3<double>;
+  add_pair<floors::Rk4, S>("rkmk/SO3/rk4", Rkmk::Options{Rkmk::Tableau::rk4});
+  add_pair<floors::MuntheKaas<dormand_prince_five>, S>("rkmk/SO3/dopri5",
+                                                       Rkmk::Options{Rkmk::Tableau::dopri5});
+  add_pair<floors::MuntheKaas<butcher_six>, S>("rkmk/SO3/butcher6", Rkmk::Options{Rkmk::Tableau::butcher6});
+  add_pair<floors::Cf4, S>("commutator_free/SO3", CommutatorFree::Options{});
+  add_pair<floors::Cg3, S>("crouch_grossman/SO3", CrouchGrossman::Options{});
+}
+
+}  // namespace liebench::benchmarks
