@@ -17,6 +17,21 @@
 
 namespace liebench {
 
+// One step of it from (t, q, v), without the projection.
+template <MechanicalSystem S, class Audit>
+StepResult index1_step(const S& system, const typename S::Scalar& t, const typename S::Scalar& h,
+                       Configuration<S>& q, Velocity<S>& v, Audit& audit) {
+  using T = typename S::Scalar;
+  const auto acceleration = [&](const T& time, const Configuration<S>& Q, const Velocity<S>& V,
+                                Velocity<S>& F) {
+    const auto dynamics = consistent_dynamics(system, time, Q, V, audit);
+    if (!dynamics) return Outcome::singular_matrix;
+    F = dynamics->acceleration;
+    return std::isfinite(to_double(T(dynamics->acceleration.norm()))) ? Outcome::ok : Outcome::non_finite;
+  };
+  return runge_kutta_munthe_kaas_step<butcher_six>(system, t, h, q, v, acceleration);
+}
+
 // Solution points at t_0, t_0 + h, ... from the initial values of the system, consistent ones.
 template <MechanicalSystem S, class Audit>
 [[gnu::noinline]] StepResult self_start(const S& system, const typename S::Scalar& t_0,
@@ -25,18 +40,10 @@ template <MechanicalSystem S, class Audit>
   using T = typename S::Scalar;
   Configuration<S> q = system.initial_configuration();
   Velocity<S> v = system.initial_velocity();
-  const auto acceleration = [&](const T& time, const Configuration<S>& Q, const Velocity<S>& V,
-                                Velocity<S>& F) {
-    const auto dynamics = consistent_dynamics(system, time, Q, V, audit);
-    if (!dynamics) return Outcome::singular_matrix;
-    F = dynamics->acceleration;
-    return std::isfinite(to_double(T(F.norm()))) ? Outcome::ok : Outcome::non_finite;
-  };
   for (std::size_t j = 0; j < points.size(); ++j) {
     const T t = t_0 + h * T(double(j));
     if (j > 0) {
-      const StepResult step =
-          runge_kutta_munthe_kaas_step<butcher_six>(system, T(t - h), h, q, v, acceleration);
+      const StepResult step = index1_step(system, T(t - h), h, q, v, audit);
       if (step.outcome != Outcome::ok) return step;
     }
     if (const StepResult projected = project_on_constraints(system, t, q, v, audit);

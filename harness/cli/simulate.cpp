@@ -104,12 +104,18 @@ void run_simulation(const SimulateOptions& options) {
     reached = sample.time;
   });
   if (std::fflush(file) != 0) throw MachineError(options.out + ": cannot write");
-  if (failure)
-    progress.message(fmt::format("stopped at t = {:.6g} s, step {}: {}{}", failure->time, failure->step,
-                                 failure->message,
-                                 std::visit([](const auto& method) { return method.safeguard; }, plan.method)
-                                     ? ""
-                                     : "; --option safeguard=true may help"));
+  if (!failure) return;
+  const bool could_be_safeguarded = std::visit(
+      [](const auto& method) {
+        if constexpr (requires { method.safeguard; })
+          return !method.safeguard;
+        else
+          return false;
+      },
+      plan.method);
+  progress.message(fmt::format("stopped at t = {:.6g} s, step {}: {}{}", failure->time, failure->step,
+                               failure->message,
+                               could_be_safeguarded ? "; --option safeguard=true may help" : ""));
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ std::vector<SceneReference::Node> SceneReference::trajectory(std::uint64_t steps
   for (std::uint64_t n = 0; n <= steps; ++n) {
     const Extended t = h * Extended(double(n));
     StepResult result;
-    if (n > 0) result = runge_kutta_munthe_kaas_step(system_, Extended(t - h), h, q, v, audit);
+    if (n > 0) result = index1_step(system_, Extended(t - h), h, q, v, audit);
     if (result.outcome == Outcome::ok) result = project_on_constraints(system_, t, q, v, audit);
     const auto dynamics = consistent_dynamics(system_, t, q, v, audit);
     if (result.outcome != Outcome::ok || !dynamics) {
