@@ -118,8 +118,8 @@ struct RigidMotionAlgebra {
  private:
   // (F a + D alpha, F alpha) for w = (a, alpha), F = I + f skew(Omega) + g skew(Omega)^2 and D its derivative along U, by vector
   // products; slopes as in skew_polynomial_derivative.
-  static Tangent polynomial_times(const Tangent& v, const Tangent& w, const T& f, const T& f_slope, const T& g,
-                                  const T& g_slope) {
+  static Tangent polynomial_times(const Tangent& v, const Tangent& w, const T& f, const T& f_slope,
+                                  const T& g, const T& g_slope) {
     const Vector U = shift(v), omega = turn(v);
     const T rate = omega.dot(U);
     const Vector a_once = omega.cross(shift(w)), once = omega.cross(turn(w)), across = U.cross(turn(w));

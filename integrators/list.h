@@ -14,6 +14,7 @@ struct IntegratorList {};
 
 // Every integrator of the program. A method that is not in this list is nowhere; one that is in it is in
 // every command.
-using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, Rkmk, CommutatorFree, CrouchGrossman>;
+using Integrators =
+    IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, Rkmk, CommutatorFree, CrouchGrossman>;
 
 }  // namespace liebench

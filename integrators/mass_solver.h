@@ -69,7 +69,7 @@ class MassSolver<S> {
   }
 
   Lu lu_;
-  typename Lu::Matrix inverse_;
+  typename Lu::Matrix inverse_ = Lu::Matrix::Zero();
   bool regular_ = false;
 };
 

@@ -83,7 +83,9 @@ Slope weighted_sum(const T& h, const std::array<Slope, n>& slopes) {
   const auto add = [&]<std::size_t j>(std::integral_constant<std::size_t, j>) {
     if constexpr (j > first && weights[j].numerator != 0) sum += value_of<T>(weights[j]) * slopes[j];
   };
-  [&]<std::size_t... j>(std::index_sequence<j...>) { (add(std::integral_constant<std::size_t, j>{}), ...); }
+  [&]<std::size_t... j>(std::index_sequence<j...>) {
+    (add(std::integral_constant<std::size_t, j>{}), ...);
+  }
   (std::make_index_sequence<weights.size()>{});
   return Slope(h * sum);
 }

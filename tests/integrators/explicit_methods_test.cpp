@@ -118,8 +118,8 @@ TEST(CrouchGrossman, FulfilsTheFurtherConditionOfOrderThree) {
 
 // A textbook loop: k_i = f(t + c_i h, y + h sum a_ij k_j) for y = (q, v).
 template <std::size_t s, int n>
-void textbook_step(const ExplicitTableau<s>& tableau, const Oscillators<double, n>& system, double t, double h,
-                   Eigen::Matrix<double, n, 1>& q, Eigen::Matrix<double, n, 1>& v) {
+void textbook_step(const ExplicitTableau<s>& tableau, const Oscillators<double, n>& system, double t,
+                   double h, Eigen::Matrix<double, n, 1>& q, Eigen::Matrix<double, n, 1>& v) {
   using Vector = Eigen::Matrix<double, n, 1>;
   std::array<Vector, s> dq, dv;
   const auto weight = [](const Fraction& f) { return double(f.numerator) / double(f.denominator); };

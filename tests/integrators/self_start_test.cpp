@@ -25,18 +25,6 @@ namespace {
 
 // --- the Runge-Kutta-Munthe-Kaas step --------------------------------------------------------------------
 
-TEST(ButcherSix, RowsSumToTheirNodes) {
-  const auto value = [](const ButcherSix::Fraction& f) { return double(f.numerator) / f.denominator; };
-  double weights = 0.0;
-  for (std::size_t i = 0; i < ButcherSix::stages; ++i) {
-    double sum = 0.0;
-    for (const auto& a : ButcherSix::a[i]) sum += value(a);
-    EXPECT_NEAR(sum, value(ButcherSix::c[i]), 4 * 2.3e-16) << i;
-    weights += value(ButcherSix::b[i]);
-  }
-  EXPECT_NEAR(weights, 1.0, 4 * 2.3e-16);
-}
-
 // Errors at t = 1/2 in q and v.
 template <class S>
 std::array<double, 2> runge_kutta_errors(const HeavyTopMotion& motion, const S& system, int steps) {
@@ -45,8 +33,7 @@ std::array<double, 2> runge_kutta_errors(const HeavyTopMotion& motion, const S& 
   auto start = motion.point(system, Extended(0.0));
   NoAudit audit;
   for (int n = 0; n < steps; ++n)
-    EXPECT_EQ(index1_step(system, T(h * T(double(n))), h, start.q, start.v, audit).outcome,
-              Outcome::ok);
+    EXPECT_EQ(index1_step(system, T(h * T(double(n))), h, start.q, start.v, audit).outcome, Outcome::ok);
   const auto exact = motion.point(system, Extended(0.5));
   return {S::Group::separation(exact.q, start.q).norm(), to_double((start.v - exact.v).norm())};
 }
@@ -79,8 +66,9 @@ TEST(RungeKuttaMuntheKaas, CountsSevenEvaluationsOfTheDynamicsAStep) {
     const GroupCalls calls = GroupCalls::counts() - calls_before;
     EXPECT_EQ(evaluations.forces, 7u);
     EXPECT_EQ(evaluations.stiffnesses, 0u);
-    EXPECT_EQ(calls.exp, 8u);
-    EXPECT_EQ(calls.tangent_inverse, 7u);
+    // The first stage is at q_n.
+    EXPECT_EQ(calls.exp, 7u);
+    EXPECT_EQ(calls.tangent_inverse, 6u);
     EXPECT_EQ(calls.log + calls.tangent + calls.commutators, 0u);
     EXPECT_EQ(audit.factorizations, 7u);
     EXPECT_EQ(audit.factorizations_start, 7u);

@@ -90,7 +90,8 @@ Finding contact(const Contestant& method, const std::string&, double stiffness) 
   if (stability_function(method, 0.0)) {
     // It sees the ground when it is in it by up to v h, and takes the force there for all of the step.
     const double kick = stiffness * std::pow(3.13 * h, 1.5) * h / 3.13;
-    finding.reason += fmt::format("; an explicit step turns the force of v h into {:.2g} times the velocity", kick);
+    finding.reason +=
+        fmt::format("; an explicit step turns the force of v h into {:.2g} times the velocity", kick);
     if (kick > 1.0) finding.at_worst = Grade::failed;
   }
   if (finding.grade == Grade::failed) return finding;
