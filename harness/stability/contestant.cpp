@@ -1,57 +1,11 @@
 #include "harness/stability/contestant.h"
 
-#include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
-#include "integrators/bdf_coefficients.h"
-#include "integrators/crouch_grossman.h"
 #include "integrators/form.h"
-#include "integrators/runge_kutta_tableau.h"
 
 namespace liebench {
-
-namespace {
-
-using Complex = std::complex<double>;
-
-double largest_eigenvalue(const Eigen::MatrixXcd& matrix) {
-  return Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(matrix, false).eigenvalues().cwiseAbs().maxCoeff();
-}
-
-double bdf_radius(int k, Complex z) {
-  const auto alpha = bdf_coefficients<double>(k).alpha;
-  Eigen::MatrixXcd companion = Eigen::MatrixXcd::Zero(k, k);
-  for (int i = 1; i <= k; ++i) companion(0, i - 1) = -alpha[std::size_t(i)] / (alpha[0] - z);
-  for (int i = 1; i < k; ++i) companion(i, i - 1) = 1.0;
-  return largest_eigenvalue(companion);
-}
-
-template <std::size_t s>
-Complex stability_function_of(const ExplicitTableau<s>& tableau, Complex z) {
-  Complex value = 1.0;
-  std::array<Complex, s> stage;
-  for (std::size_t i = 0; i < s; ++i) {
-    stage[i] = 1.0;
-    for (std::size_t j = 0; j < i; ++j) stage[i] += z * value_of<double>(tableau.a[i][j]) * stage[j];
-    value += z * value_of<double>(tableau.b[i]) * stage[i];
-  }
-  return value;
-}
-
-struct Alpha {
-  double alpha_m, alpha_f, beta, gamma;
-  explicit Alpha(double rho)
-      : alpha_m((2.0 * rho - 1.0) / (rho + 1.0)),
-        alpha_f(rho / (rho + 1.0)),
-        beta(1.0 / ((rho + 1.0) * (rho + 1.0))),
-        gamma((3.0 - rho) / (2.0 * (rho + 1.0))) {}
-};
-
-}  // namespace
 
 int Contestant::steps() const {
   return options.has("k") ? options.integer("k") : 1;
@@ -123,74 +77,6 @@ const std::vector<Contestant>& contestants(bool safeguard) {
   };
   static const std::vector<Contestant> plain = list(false), safeguarded = list(true);
   return safeguard ? safeguarded : plain;
-}
-
-std::optional<Complex> stability_function(const Contestant& method, Complex z) {
-  if (method.is("crouch_grossman")) return stability_function_of(crouch_grossman_three, z);
-  if (method.is("commutator_free")) return stability_function_of(classical_four, z);
-  if (!method.is("rkmk")) return std::nullopt;
-  const std::string& tableau = method.options.choice("tableau");
-  if (tableau == "dopri5") return stability_function_of(dormand_prince_five, z);
-  if (tableau == "butcher6") return stability_function_of(butcher_six, z);
-  return stability_function_of(classical_four, z);
-}
-
-double spectral_radius(const Contestant& method, Complex z) {
-  if (const auto R = stability_function(method, z)) return std::abs(*R);
-  if (method.options.has("k")) {
-    // A real system of second order has z and its conjugate; both polynomials have roots of the same sizes.
-    return bdf_radius(method.steps(), z);
-  }
-  const Alpha p(*method.rho_inf());
-  const double damping = -2.0 * z.real(), stiffness = std::norm(z);  // 2 xi Omega and Omega^2
-  // Unknowns at n + 1 (x, h x', h^2 a, h^2 x''), with h^2 x'' = -damping h x' - stiffness x at n + 1 and at n.
-  Eigen::Matrix4d left, right;
-  left << 1.0, 0.0, -p.beta, 0.0,                     //
-      0.0, 1.0, -p.gamma, 0.0,                        //
-      0.0, 0.0, 1.0 - p.alpha_m, -(1.0 - p.alpha_f),  //
-      stiffness, damping, 0.0, 1.0;
-  right << 1.0, 1.0, 0.5 - p.beta, 0.0,  //
-      0.0, 1.0, 1.0 - p.gamma, 0.0,      //
-      0.0, 0.0, -p.alpha_m, p.alpha_f,   //
-      0.0, 0.0, 0.0, 0.0;
-  return largest_eigenvalue((left.partialPivLu().solve(right)).cast<Complex>());
-}
-
-double truncation_spectral_radius(int k, double angle) {
-  const auto alpha = bdf_coefficients<double>(k).alpha;
-  const Complex i_angle(0.0, angle);
-  // Coefficients of d_0, ..., d_3.
-  using Row = Eigen::Vector4cd;
-  const auto d = [](int j) { return Row(Row::Unit(j)); };
-  const Row s = -(d(1) + d(2)) + 0.5 * i_angle * (d(2) - d(1));
-  Row w = alpha[0] * d(0) - alpha[2] * d(1) + alpha[3] * s;
-  if (k == 4) {
-    const Row z = -i_angle * (s + 2.0 * d(3));
-    w += alpha[4] * (s - d(3) - 0.5 * z + i_angle / 12.0 * z);
-  }
-  const Row p = i_angle * (w - d(0));
-  Row v = w - 0.5 * p;
-  if (k == 4) v += i_angle / 6.0 * p;
-  const int n = k - 1;
-  Eigen::MatrixXcd companion = Eigen::MatrixXcd::Zero(n, n);
-  for (int j = 0; j < n; ++j) companion(0, j) = -v(j + 1) / v(0);
-  for (int j = 1; j < n; ++j) companion(j, j - 1) = 1.0;
-  return largest_eigenvalue(companion);
-}
-
-double velocity_spectral_radius(const Contestant& method, Complex z) {
-  if (const auto R = stability_function(method, z)) return std::abs(*R);
-  if (method.options.has("k")) return bdf_radius(method.steps(), z);
-  const Alpha p(*method.rho_inf());
-  // (v, h a, h v')
-  Eigen::Matrix3cd left, right;
-  left << 1.0, -p.gamma, 0.0,                    //
-      0.0, 1.0 - p.alpha_m, -(1.0 - p.alpha_f),  //
-      -z, 0.0, 1.0;
-  right << 1.0, 1.0 - p.gamma, 0.0,  //
-      0.0, -p.alpha_m, p.alpha_f,    //
-      0.0, 0.0, 0.0;
-  return largest_eigenvalue(left.partialPivLu().solve(right));
 }
 
 }  // namespace liebench

@@ -6,6 +6,7 @@
 #include "harness/correction_stability.h"
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
+#include "harness/stability/linear_theory.h"
 
 // The explicit correction term of BLieDF2nd where the constraint fixes the increments: a spinning body whose joint is on the axis of its
 // spin, away from the centre of mass, disturbed by 1e-8 of its velocity.

@@ -5,6 +5,7 @@
 
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
+#include "harness/stability/linear_theory.h"
 
 // A free symmetric body that turns by h Omega in a step, with a small wobble: w' = i lambda w, lambda = (J3 - J1) / J1 Omega_3, for
 // w = Omega_1 + i Omega_2.

@@ -6,6 +6,7 @@
 
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
+#include "harness/stability/linear_theory.h"
 #include "harness/stability/growth.h"
 
 // Ten million steps of a slow top on its joint and of a free body.

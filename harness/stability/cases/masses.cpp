@@ -4,6 +4,7 @@
 
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
+#include "harness/stability/linear_theory.h"
 #include "problems/scene_examples.h"
 
 // Masses and moments of inertia of very different sizes, and a very fast disc.

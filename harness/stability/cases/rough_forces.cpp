@@ -5,6 +5,7 @@
 
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
+#include "harness/stability/linear_theory.h"
 
 // Forces that change within a step: dry friction, impacts, a torque that jumps.
 
@@ -87,7 +88,7 @@ Finding contact(const Contestant& method, const std::string&, double stiffness) 
   finding.reason = fmt::format("the impact takes {:.2g} steps", duration / h);
   // What few steps resolve is a jump of the velocity for the method, and how high it comes back depends on where the jump falls.
   if (duration < 20.0 * h) finding.at_worst = Grade::degraded;
-  if (stability_function(method, 0.0)) {
+  if (explicit_in_forces(method)) {
     // It sees the ground when it is in it by up to v h, and takes the force there for all of the step.
     const double kick = stiffness * std::pow(3.13 * h, 1.5) * h / 3.13;
     finding.reason +=

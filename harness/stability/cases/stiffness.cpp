@@ -5,6 +5,7 @@
 
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
+#include "harness/stability/linear_theory.h"
 
 // A torsional spring from soft to stiff at one step size: a disc on a hinge, from the exact motion.
 
