@@ -62,7 +62,8 @@ int expected_order(const CurveIdentity& identity, const Quantity& quantity) {
   const Json& options = *identity.options;
   const MethodInfo* method = find_method(identity.integrator);
   if (method == nullptr)
-    throw InputError(identity.integrator, "this program has no such integrator, and so no order to expect of it");
+    throw InputError(identity.integrator,
+                     "this program has no such integrator, and so no order to expect of it");
   const ConvergenceOrders orders = method->orders(options_from_json(*method, options));
   if (quantity.component != "lambda") return quantity.component == "q" ? orders.q : orders.v;
   const bool reduced = quantity.norm == "max_absolute" && options.contains("modified_start") &&

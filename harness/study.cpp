@@ -190,8 +190,8 @@ void require_fits(const std::vector<ProblemChoice>& problems, const std::vector<
     for (const ProblemChoice& problem : problems)
       if (const std::string reason = misfit(*choice.method, problem.formulation->constraints > 0);
           !reason.empty())
-        throw InputError(choice.entry["name"].pointer(),
-                         fmt::format("{} in {}: {}", problem.problem->name, problem.formulation->name, reason));
+        throw InputError(choice.entry["name"].pointer(), fmt::format("{} in {}: {}", problem.problem->name,
+                                                                     problem.formulation->name, reason));
 }
 
 double positive_step(const JsonView& view) {

@@ -55,9 +55,9 @@ struct BLieDF2nd {
   });
 
   static std::string title(const OptionValues& values) {
-    const std::string correction = values.is_choice("correction")   ? ", L_k implicit"
+    const std::string correction = values.is_choice("correction")  ? ", L_k implicit"
                                    : !values.boolean("correction") ? ", L_k = 0"
-                                                                    : "";
+                                                                   : "";
     return "BLieDF2nd, k = " + std::to_string(values.integer("k")) + correction;
   }
   static ConvergenceOrders orders(const OptionValues& values) {

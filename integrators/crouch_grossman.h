@@ -70,7 +70,8 @@ struct CrouchGrossman {
         } else {
           V[i] = next;
           const T time = t + value_of<T>(tableau.c[i]) * h;
-          if (const Outcome outcome = acceleration(time, Q, V[i], F[i]); outcome != Outcome::ok) return outcome;
+          if (const Outcome outcome = acceleration(time, Q, V[i], F[i]); outcome != Outcome::ok)
+            return outcome;
           return self(self, std::integral_constant<std::size_t, i + 1>{});
         }
       };

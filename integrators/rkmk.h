@@ -53,8 +53,9 @@ struct Rkmk {
 
   static std::string title(const OptionValues& values) { return "RKMK " + values.choice("tableau"); }
   static ConvergenceOrders orders(const OptionValues& values) {
-    return with_tableau(options(values).tableau,
-                        []<const auto& tableau>(Scheme<tableau>) { return same_order(tableau.order); });
+    return with_tableau(
+        options(values).tableau,
+        []<const auto & tableau>(Scheme<tableau>) { return same_order(tableau.order); });
   }
 
   struct Options {

@@ -54,7 +54,8 @@ class StepControl {
   // Whether a step of this error (in units of the tolerance) is accepted; factor() then is that of the next step size.
   bool accept(double error) {
     const bool accepted = error <= 1.0;
-    const double wanted = std::isfinite(error) ? safety * std::pow(std::max(error, 1e-10), -exponent_) : least;
+    const double wanted =
+        std::isfinite(error) ? safety * std::pow(std::max(error, 1e-10), -exponent_) : least;
     factor_ = std::clamp(wanted, least, rejected_ || !accepted ? 1.0 : most);
     rejected_ = !accepted;
     return accepted;
