@@ -24,21 +24,25 @@ std::string row_name(const RecordRow& record) {
     options +=
         fmt::format(" {}={}", option.key(),
                     option.value().is_string() ? option.value().get<std::string>() : option.value().dump());
-  return fmt::format("{} {} {}{} h={:.4g}", curve.problem, curve.formulation, curve.integrator, options,
-                     record.step_size());
+  const auto tolerance = record[record_number("options/tolerance")];
+  return fmt::format("{} {} {}{} {}={:.4g}", curve.problem, curve.formulation, curve.integrator, options,
+                     tolerance ? "tolerance" : "h", tolerance.value_or(record.step_size()));
 }
 
 // What was run: rows of other keys belong together by it.
 struct WhatRan {
   const RecordRow* row;
+  // What sets it apart from others of its curve: the tolerance, where the method chooses its steps, which may be others then.
+  double place() const { return (*row)[record_number("options/tolerance")].value_or(row->step_size()); }
   bool operator==(const WhatRan& other) const {
-    return row->step_size() == other.row->step_size() && row->steps() == other.row->steps() &&
-           *row->curve == *other.row->curve;
+    const auto tolerance = record_number("options/tolerance");
+    return place() == other.place() && (*row)[tolerance] == (*other.row)[tolerance] &&
+           ((*row)[tolerance] || row->steps() == other.row->steps()) && *row->curve == *other.row->curve;
   }
 };
 struct HashOfWhatRan {
   std::size_t operator()(const WhatRan& run) const {
-    return run.row->curve->hash() ^ std::hash<double>{}(run.row->step_size());
+    return run.row->curve->hash() ^ std::hash<double>{}(run.place());
   }
 };
 

@@ -57,7 +57,9 @@ const PreparedProblem& PreparedProblems::of(const RunSpec& run) const {
 
 double expected_work(const RunSpec& run) {
   const double step = run.precision == Precision::extended ? 12.0 : 2.0;
-  return double(run.request.steps) * step * (run.formulation->constraints > 0 ? 2.0 : 1.0) + 1.0;
+  // How many steps a method will choose nobody knows before.
+  const double steps = run.method->chooses_steps ? 1e4 : double(run.request.steps);
+  return steps * step * (run.formulation->constraints > 0 ? 2.0 : 1.0) + 1.0;
 }
 
 int default_jobs() {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "integrators/list.h"
+#include "integrators/step_control.h"
 
 namespace liebench {
 
@@ -19,8 +20,8 @@ std::vector<std::string> words(const OptionInfo& info) {
 
 template <class... Methods>
 std::vector<MethodInfo> infos(IntegratorList<Methods...>) {
-  return {MethodInfo{Methods::name, Methods::summary, Methods::fits, Methods::option_list, &Methods::title,
-                     &Methods::orders}...};
+  return {MethodInfo{Methods::name, Methods::summary, Methods::fits, chooses_steps<Methods>(),
+                     Methods::option_list, &Methods::title, &Methods::orders}...};
 }
 
 }  // namespace

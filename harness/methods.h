@@ -18,6 +18,7 @@ struct MethodInfo {
   std::string_view name;
   std::string_view summary;
   Fits fits;
+  bool chooses_steps;  // it has the option `tolerance`, and no step size
   std::span<const OptionInfo> options;
   std::string (*title)(const OptionValues&);  // "BLieDF2nd, k = 3"
   ConvergenceOrders (*orders)(const OptionValues&);

@@ -108,9 +108,15 @@ Json make_record(const RunSpec& run, const RunResult& result, const PreparedProb
   j["options"] = options_to_json(*run.method, run.request.options);
   j["start"] = name(run.request.start);
   j["precision"] = name(run.precision);
-  j["step_size"] = run.step_size();
-  j["requested_step_size"] = run.requested_step_size;
-  j["steps"] = run.request.steps;
+  if (run.method->chooses_steps) {
+    const std::uint64_t steps = std::max<std::uint64_t>(1, result.steps);
+    j["step_size"] = run.duration() / double(steps);
+    j["steps"] = steps;
+  } else {
+    j["step_size"] = run.step_size();
+    j["requested_step_size"] = run.requested_step_size;
+    j["steps"] = run.request.steps;
+  }
   j["t_0"] = run.t_0;
   j["t_end"] = run.t_end;
   if (run.local_steps > 0) j["local_steps"] = run.local_steps;
@@ -135,6 +141,7 @@ Json make_record(const RunSpec& run, const RunResult& result, const PreparedProb
   if (result.drift) j["drift"] = drift(*result.drift);
   if (result.solver) j["solver"] = name(*result.solver);
   j["cost"] = cost_to_json(result.cost);
+  if (run.method->chooses_steps) j["cost"]["rejected_steps"] = result.cost.kernel.rejections;
   j["provenance"] = provenance;
   return j;
 }

@@ -45,6 +45,11 @@ CurveIdentity identity_of(const Json& record) {
 
 CurveIdentity identity_of(const Json& record, SharedJson parameters, SharedJson options) {
   const auto text = [&](const char* key) { return record.at(key).get<std::string>(); };
+  if (options->contains("tolerance")) {
+    Json others = *options;
+    others.erase("tolerance");
+    options = SharedJson(std::move(others));
+  }
   // Runs over a fixed number of steps end elsewhere for every step size.
   const char* length_key = record.contains("local_steps") ? "local_steps" : "t_end";
   return {.problem = text("problem"),

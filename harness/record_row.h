@@ -39,7 +39,8 @@ class SharedJson {
   std::size_t hash_;
 };
 
-// What the records of one curve share: they differ in the step size alone. Strings and JSON as the record has them.
+// What the records of one curve share: they differ in the step size alone, or in the tolerance of a method that chooses its steps,
+// which `options` therefore lacks. Strings and JSON as the record has them.
 struct CurveIdentity {
   std::string problem{}, formulation{};
   SharedJson parameters{};
@@ -73,6 +74,7 @@ CurveIdentity identity_of(const Json& record, SharedJson parameters, SharedJson 
 inline constexpr auto number_paths = std::to_array<std::string_view>({
     "step_size",
     "requested_step_size",
+    "options/tolerance",
     "steps",
     "reference/error_estimate",
     "errors/q/end_relative",
@@ -98,6 +100,7 @@ inline constexpr auto number_paths = std::to_array<std::string_view>({
     "cost/factorizations_by_cause/refresh",
     "cost/factorizations_by_cause/slow_convergence",
     "cost/solves",
+    "cost/rejected_steps",
     "cost/newton_iterations",
     "cost/exp",
     "cost/log",

@@ -33,8 +33,10 @@ struct RunRequest {
   std::string integrator;
   OptionValues options;
   Start start = Start::self;
-  Extended step_size;       // h, s
-  std::uint64_t steps = 0;  // N: the run covers t_0, ..., t_0 + N h, starting values included
+  Extended step_size;  // h, s; the length of the interval, of a method that chooses its steps
+  std::uint64_t steps =
+      0;  // N: the run covers t_0, ..., t_0 + N h, starting values included; or the most it may choose
+  bool chooses_steps = false;  // of the method
 };
 
 // Errors of one solution component, norms as in docs/records.md.
@@ -87,6 +89,7 @@ struct RunResult {
   std::optional<double> agreement_time;
   std::optional<LinearSolver> solver;  // of Newton's equations, where it depends on their number
   RunCost cost;
+  std::uint64_t steps = 0;        // that were taken, those of the start included
   std::vector<double> end_state;  // q, v, lambda where the run ended, rounded to double
 };
 

@@ -65,21 +65,40 @@ SolutionPoint<S> rounded(const SolutionPoint<typename S::template rebind<Extende
   }
 }
 
+template <class T>
+Extended extended_time(const T& t) {
+  if constexpr (std::is_same_v<T, Extended>)
+    return t;
+  else
+    return Extended(to_double(t));
+}
+
+// A state that a run has reached.
+struct ObservedStep {
+  std::uint64_t number;
+  Extended t;  // since the start
+  bool last;
+};
+
+// Every how many steps the invariants are looked at: all, where the method chooses them.
+inline std::uint64_t drift_stride(const RunRequest& request) {
+  return request.chooses_steps ? 1 : std::max<std::uint64_t>(1, request.steps / 1000);
+}
+
 // Compares a running method with the exact solution and keeps the norms.
 template <MechanicalSystem S>
 class Monitor {
  public:
   using Exact = typename S::template rebind<Extended>;
 
-  Monitor(const S& system, std::uint64_t steps)
-      : system_(system), stride_(std::max<std::uint64_t>(1, steps / 1000)), steps_(steps) {
+  Monitor(const S& system, std::uint64_t stride) : system_(system), stride_(stride) {
     initial_angular_momentum_ =
         to_double(system.angular_momentum(system.initial_configuration(), system.initial_velocity()));
     initial_energy_ = to_double(system.energy(system.initial_configuration(), system.initial_velocity()));
   }
 
-  // The state at t_n. q is compared through the rotation and the position that it stands for.
-  [[gnu::noinline]] void observe(std::uint64_t n, const Configuration<S>& configuration,
+  // The state at t_n, `last` of the run. q is compared through the rotation and the position that it stands for.
+  [[gnu::noinline]] void observe(const ObservedStep& step, const Configuration<S>& configuration,
                                  const Velocity<S>& velocity, const Multipliers<S>& multipliers,
                                  const SolutionPoint<Exact>& exact) {
     using Represented = typename Exact::Group::Represented;
@@ -94,13 +113,14 @@ class Monitor {
       const auto lambda = multipliers.template cast<Extended>().eval();
       lambda_.end_absolute = max_norm((lambda - exact.lambda).eval());
       lambda_.max_absolute = std::max(lambda_.max_absolute, lambda_.end_absolute);
-      if (n == steps_) lambda_.end_relative = relative_distance(lambda, exact.lambda);
+      if (step.last) lambda_.end_relative = relative_distance(lambda, exact.lambda);
     }
-    if (n == steps_) {
+    if (step.last) {
       q_.end_relative = relative_distance(Represented::stacked(q), Represented::stacked(exact_q));
       v_.end_relative = relative_distance(v, exact.v);
     }
-    if (n % stride_ == 0 || n == steps_) observe_drift(in_scalar_of_run(exact.t), configuration, velocity);
+    if (step.number % stride_ == 0 || step.last)
+      observe_drift(in_scalar_of_run(exact.t), configuration, velocity);
   }
 
   void report(RunResult& result) const {
@@ -133,7 +153,6 @@ class Monitor {
 
   const S& system_;
   std::uint64_t stride_;
-  std::uint64_t steps_;
   double initial_energy_;
   double initial_angular_momentum_;
   ErrorNorms q_, v_, lambda_;
@@ -223,23 +242,30 @@ std::vector<double> state_of(const AnyStepper<S>& stepper) {
   return state;
 }
 
-// One run. `observe(n, q, v, lambda)` sees every state, those of the method's own start included; of the last starting point
+// One run. `observe(step, q, v, lambda)` sees every state, those of the method's own start included; of the last starting point
 // as the method goes on from it.
 template <MechanicalSystem S, class Solution, class Observer>
 void follow(AnyStepper<S>& stepper, const RunRequest& request, const Solution& exact, const Observer& observe,
             RunResult& result) {
   const Counting counting;
   Beginning<S> beginning;
+  const bool own_steps = request.chooses_steps;
   const auto first = std::uint64_t(stepper.steps());
+  const auto time_of = [&](std::uint64_t n) {
+    return own_steps ? extended_time(stepper.time()) : request.step_size * Extended(double(n));
+  };
   const auto fail = [&](const StepResult& step, std::uint64_t n) {
     result.outcome = step.outcome;
-    result.failure = RunFailure{.time = to_double(request.step_size * Extended(double(n))),
+    result.failure = RunFailure{.time = to_double(time_of(n)),
                                 .step = n,
                                 .residual = step.residual,
                                 .message = std::string(explanation(step.outcome))};
   };
   const auto observe_state = [&](std::uint64_t n) {
-    observe(n, stepper.configuration(), stepper.velocity(), stepper.multipliers());
+    const bool last = own_steps ? stepper.finished() : n == request.steps;
+    observe(ObservedStep{n, time_of(n), last}, stepper.configuration(), stepper.velocity(),
+            stepper.multipliers());
+    result.steps = n;
   };
   if (request.start == Start::reference) beginning.take_reference(stepper, request, exact);
   const StepResult start = beginning.start(stepper, request);
@@ -248,10 +274,15 @@ void follow(AnyStepper<S>& stepper, const RunRequest& request, const Solution& e
   } else {
     if (request.start == Start::self) {
       for (std::uint64_t n = 1; n + 1 < first; ++n)
-        observe(n, beginning.room[n].q, beginning.room[n].v, beginning.room[n].lambda);
+        observe(ObservedStep{n, time_of(n), n == request.steps}, beginning.room[n].q, beginning.room[n].v,
+                beginning.room[n].lambda);
       if (first > 1) observe_state(first - 1);
     }
-    for (std::uint64_t n = first; n <= request.steps && result.outcome == Outcome::ok; ++n) {
+    for (std::uint64_t n = first; result.outcome == Outcome::ok && !stepper.finished(); ++n) {
+      if (n > request.steps) {
+        if (own_steps) fail({Outcome::step_limit}, n);
+        break;
+      }
       if (const StepResult step = stepper.step(); step.outcome != Outcome::ok)
         fail(step, n);
       else
@@ -269,6 +300,10 @@ class TimedStepper final : public TimedRun {
   TimedStepper(std::unique_ptr<AnyStepper<S>> stepper, const RunRequest& request, const Solution& exact)
       : request_(request), fresh_(std::move(stepper)), started_(fresh_->clone()), running_(fresh_->clone()) {
     if (request.start == Start::reference) beginning_.take_reference(*fresh_, request, exact);
+    steps_ = request.steps + 1 - std::uint64_t(fresh_->steps());
+    if (!request.chooses_steps || !start()) return;
+    running_->assign(*started_);
+    for (steps_ = 0; !running_->finished() && running_->step().outcome == Outcome::ok;) ++steps_;
   }
   bool start() override {
     started_->assign(*fresh_);
@@ -278,10 +313,11 @@ class TimedStepper final : public TimedRun {
     running_->assign(*started_);
     return running_->advance(steps()).outcome == Outcome::ok;
   }
-  std::uint64_t steps() const override { return request_.steps + 1 - std::uint64_t(fresh_->steps()); }
+  std::uint64_t steps() const override { return steps_; }
 
  private:
   RunRequest request_;
+  std::uint64_t steps_;
   Beginning<S> beginning_;
   std::unique_ptr<AnyStepper<S>> fresh_, started_, running_;
 };
@@ -307,10 +343,9 @@ inline MethodOptions options_of(const RunRequest& request) {
 template <MechanicalSystem S, class Solution>
 RunResult accuracy_run(const RunRequest& request, const S& system, const Solution& exact) {
   RunResult result;
-  detail::Monitor<S> monitor(system, request.steps);
-  const auto observe = [&](std::uint64_t n, const auto& q, const auto& v, const auto& lambda) {
-    monitor.observe(n, q, v, lambda, exact(request.step_size * Extended(double(n))));
-  };
+  detail::Monitor<S> monitor(system, detail::drift_stride(request));
+  const auto observe = [&](const detail::ObservedStep& step, const auto& q, const auto& v,
+                           const auto& lambda) { monitor.observe(step, q, v, lambda, exact(step.t)); };
   const auto stepper = any_stepper(detail::options_of(request), system);
   detail::follow(*stepper, request, exact, observe, result);
   if (result.outcome == Outcome::ok) monitor.report(result);

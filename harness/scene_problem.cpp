@@ -27,20 +27,20 @@ class SceneMonitor {
  public:
   using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
-  SceneMonitor(const AssembledScene& scene, const SceneReference& reference, std::uint64_t steps)
+  SceneMonitor(const AssembledScene& scene, const SceneReference& reference, std::uint64_t stride)
       : system_(run_time_scene<T>(scene.scene, scene.implied)),
         model_(make_scene_model<T>(scene.scene, scene.implied)),
         chaotic_(scene.scene.chaotic),
         reference_(reference),
-        steps_(steps),
-        stride_(std::max<std::uint64_t>(1, steps / 1000)) {
+        stride_(stride) {
     const Vector q = system_.initial_configuration(), v = system_.initial_velocity();
     energy_ = to_double(system_.energy(q, v));
     angular_momentum_ = to_double(system_.angular_momentum(q, v));
   }
 
-  [[gnu::noinline]] void observe(std::uint64_t n, const Vector& q, const Vector& v, const Vector& lambda,
-                                 const Extended& t) {
+  [[gnu::noinline]] void observe(const detail::ObservedStep& step, const Vector& q, const Vector& v,
+                                 const Vector& lambda) {
+    const Extended& t = step.t;
     using Wide = SceneReference::System::Vector;
     const SceneReference::Point exact = reference_.at(t);
     const Wide wide_q = q.template cast<Extended>(), wide_v = v.template cast<Extended>();
@@ -54,12 +54,12 @@ class SceneMonitor {
     else
       agrees_ = false;
     if (lambda.size() > 0) take(lambda_, detail::max_norm(Wide(wide_lambda - exact.lambda)));
-    if (n == steps_) {
+    if (step.last) {
       q_.end_relative = detail::relative_distance(represented(wide_q), represented(exact.q));
       v_.end_relative = detail::relative_distance(wide_v, exact.v);
       if (lambda.size() > 0) lambda_.end_relative = detail::relative_distance(wide_lambda, exact.lambda);
     }
-    if (n % stride_ == 0 || n == steps_) observe_drift(q, v, t);
+    if (step.number % stride_ == 0 || step.last) observe_drift(q, v, t);
   }
 
   void report(RunResult& result) const {
@@ -114,7 +114,7 @@ class SceneMonitor {
   bool chaotic_, agrees_ = true;
   double agreement_time_ = 0.0;
   const SceneReference& reference_;
-  std::uint64_t steps_, stride_;
+  std::uint64_t stride_;
   double energy_ = 0.0, angular_momentum_ = 0.0;
   ErrorNorms q_, v_, lambda_;
   Drift drift_;
@@ -137,10 +137,9 @@ class PreparedScene final : public PreparedProblem {
   template <class T, class S>
   RunResult compared(const RunRequest& request, const S& system) const {
     RunResult result;
-    SceneMonitor<T> monitor(scene_, reference_, request.steps);
-    const auto observe = [&](std::uint64_t n, const auto& q, const auto& v, const auto& lambda) {
-      monitor.observe(n, q, v, lambda, request.step_size * Extended(double(n)));
-    };
+    SceneMonitor<T> monitor(scene_, reference_, detail::drift_stride(request));
+    const auto observe = [&](const detail::ObservedStep& step, const auto& q, const auto& v,
+                             const auto& lambda) { monitor.observe(step, q, v, lambda); };
     const auto stepper = any_stepper(detail::options_of(request), system);
     detail::follow(*stepper, request, exact<S>(), observe, result);
     if (result.outcome == Outcome::ok) monitor.report(result);

@@ -152,6 +152,9 @@ std::vector<MethodChoice> read_methods(const JsonView& list, Start start) {
   return choices;
 }
 
+// The most steps that a method may choose: what takes more ends as step_limit.
+constexpr std::uint64_t most_chosen_steps = 10'000'000;
+
 // Options without those that mean nothing for this formulation.
 OptionValues applicable_options(const MethodInfo& method, OptionValues options,
                                 const FormulationInfo& formulation) {
@@ -244,6 +247,20 @@ int start_steps(const MethodChoice& choice) {
   return k == choice.options.all().end() ? 1 : std::get<int>(k->second);
 }
 
+// The whole interval is the grid of a method that chooses its steps.
+void set_interval(RunSpec& run, const Interval& interval, const MethodChoice& choice) {
+  if (interval.local_steps > 0)
+    throw InputError(choice.entry["name"].pointer(),
+                     fmt::format("{} chooses its steps; a study with \"steps\" gives their number: give "
+                                 "\"t_end\" in its place",
+                                 choice.method->name));
+  run.t_0 = interval.t_0;
+  run.t_end = interval.t_end;
+  run.request.chooses_steps = true;
+  run.request.steps = most_chosen_steps;
+  run.request.step_size = decimal<Extended>(interval.t_end) - decimal<Extended>(interval.t_0);
+}
+
 void set_grid(RunSpec& run, const Interval& interval, const StepSize& size, const MethodChoice& choice) {
   run.requested_step_size = size.value;
   run.t_0 = interval.t_0;
@@ -284,7 +301,7 @@ std::string_view name(Precision precision) {
 }
 
 double RunSpec::duration() const {
-  return step_size() * double(request.steps);
+  return step_size() * (method->chooses_steps ? 1.0 : double(request.steps));
 }
 
 Json RunSpec::canonical_input() const {
@@ -298,6 +315,10 @@ Json RunSpec::canonical_input() const {
   j["start"] = name(request.start);
   j["precision"] = name(precision);
   j["t_0"] = t_0;
+  if (method->chooses_steps) {
+    j["t_end"] = t_end;
+    return j;
+  }
   j["steps"] = request.steps;
   // The step size of an interval follows from its ends and the number of steps; that of local runs is given.
   if (local_steps > 0)
@@ -317,7 +338,7 @@ Study read_study(const Json& json) {
   const JsonView root(json, "");
   root.require_object(
       {"name", "problems", "integrators", "step_sizes", "t_0", "t_end", "steps", "start", "precision"});
-  for (const char* key : {"name", "problems", "integrators", "step_sizes"}) root.require_key(key);
+  for (const char* key : {"name", "problems", "integrators"}) root.require_key(key);
   Study study;
   study.name = root["name"].text();
   if (study.name.empty()) root["name"].reject("a name that is not empty");
@@ -328,7 +349,10 @@ Study read_study(const Json& json) {
   const auto method_choices = read_methods(root["integrators"], start);
   require_fits(problem_choices, method_choices);
   require_scopes(problem_choices, method_choices);
-  const auto sizes = read_step_sizes(root["step_sizes"]);
+  const bool all_choose = std::all_of(method_choices.begin(), method_choices.end(),
+                                      [](const MethodChoice& c) { return c.method->chooses_steps; });
+  if (!all_choose) root.require_key("step_sizes");
+  const auto sizes = root.has("step_sizes") ? read_step_sizes(root["step_sizes"]) : std::vector<StepSize>{};
   const Interval interval = read_interval(root);
   std::vector<Precision> precisions;
   for (const JsonView& view : alternatives(root, "precision"))
@@ -340,24 +364,33 @@ Study read_study(const Json& json) {
   std::set<std::string> keys;
   for (const ProblemChoice& problem : problem_choices)
     for (const MethodChoice& method : method_choices)
-      for (const Precision precision : precisions)
-        for (const StepSize& size : sizes) {
-          RunSpec run;
-          run.study = study.name;
-          run.problem = problem.problem;
-          run.formulation = problem.formulation;
-          run.parameters = problem.parameters;
-          run.method = method.method;
-          run.request.integrator = std::string(method.method->name);
-          run.request.options = applicable_options(*method.method, method.options, *problem.formulation);
-          run.request.start = start;
-          run.precision = precision;
-          set_grid(run, interval, size, method);
+      for (const Precision precision : precisions) {
+        RunSpec run;
+        run.study = study.name;
+        run.problem = problem.problem;
+        run.formulation = problem.formulation;
+        run.parameters = problem.parameters;
+        run.method = method.method;
+        run.request.integrator = std::string(method.method->name);
+        run.request.options = applicable_options(*method.method, method.options, *problem.formulation);
+        run.request.start = start;
+        run.precision = precision;
+        const auto add = [&](const std::string& pointer) {
           const std::string obstacle = run.problem->obstacle(run.parameters, run.duration());
-          if (!obstacle.empty()) throw InputError(run.local_steps > 0 ? size.pointer : "/t_end", obstacle);
+          if (!obstacle.empty()) throw InputError(pointer, obstacle);
           // Two ways to say the same run are one run.
-          if (keys.insert(run.key()).second) study.runs.push_back(std::move(run));
+          if (keys.insert(run.key()).second) study.runs.push_back(run);
+        };
+        if (method.method->chooses_steps) {
+          set_interval(run, interval, method);
+          add("/t_end");
+          continue;
         }
+        for (const StepSize& size : sizes) {
+          set_grid(run, interval, size, method);
+          add(run.local_steps > 0 ? size.pointer : "/t_end");
+        }
+      }
   return study;
 }
 

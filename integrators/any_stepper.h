@@ -33,16 +33,19 @@ class AnyStepper {
   virtual ~AnyStepper() = default;
   virtual int steps() const = 0;
   virtual int starting_points() const = 0;
+  // h: the step size, or the length of the interval of a method that chooses its steps.
   virtual StepResult start(const T& h, std::span<const SolutionPoint<S>> points) = 0;
   // From the initial values of the system at t = 0 alone: integrators/self_start.h. Leaves the points that it found in
   // `points`, of which there are starting_points().
   virtual StepResult start_itself(const T& h, std::span<SolutionPoint<S>> points) = 0;
   virtual StepResult step() = 0;
-  // At most so many steps, in one loop; ends with the first that fails.
+  // At most so many steps, in one loop; ends with the first that fails, and at the end of the interval.
   virtual StepResult advance(std::uint64_t steps) = 0;
   virtual std::unique_ptr<AnyStepper> clone() const = 0;
   // Becomes what `other` is, a stepper of the same type; allocates nothing.
   virtual void assign(const AnyStepper& other) = 0;
+  // At the end of its interval, of a method that chooses its steps (integrators/step_control.h); never of another.
+  virtual bool finished() const = 0;
   virtual const T& time() const = 0;
   virtual const Configuration<S>& configuration() const = 0;
   virtual const Velocity<S>& velocity() const = 0;
@@ -79,7 +82,8 @@ class HeldStepper final : public AnyStepper<typename Stepper::System> {
   StepResult step() override { return stepper_.step(); }
   StepResult advance(std::uint64_t steps) override {
     StepResult result{};
-    for (std::uint64_t i = 0; i < steps && result.outcome == Outcome::ok; ++i) result = stepper_.step();
+    for (std::uint64_t i = 0; i < steps && result.outcome == Outcome::ok && !finished(); ++i)
+      result = stepper_.step();
     return result;
   }
   std::unique_ptr<AnyStepper<S>> clone() const override {
@@ -95,6 +99,13 @@ class HeldStepper final : public AnyStepper<typename Stepper::System> {
       copy(same.stepper_, stepper_);
     } else {
       *this = same;
+    }
+  }
+  bool finished() const override {
+    if constexpr (requires { stepper_.finished(); }) {
+      return stepper_.finished();
+    } else {
+      return false;
     }
   }
   const T& time() const override { return stepper_.time(); }
@@ -196,6 +207,7 @@ class RunTimeStepper final : public AnyStepper<S> {
     stepper_->assign(*same.stepper_);
     take_state();
   }
+  bool finished() const override { return stepper_->finished(); }
   const T& time() const override { return stepper_->time(); }
   const Configuration<S>& configuration() const override { return q_; }
   const Velocity<S>& velocity() const override { return velocity_; }

@@ -17,6 +17,7 @@ enum class FactorizationCause {
 // and compiles to nothing.
 struct NoAudit {
   void iteration() {}
+  void rejection() {}
   void factorization(FactorizationCause) {}
   void solve() {}
 };
@@ -29,8 +30,10 @@ struct KernelAudit {
   std::uint64_t factorizations_refresh = 0;
   std::uint64_t factorizations_slow = 0;
   std::uint64_t solves = 0;
+  std::uint64_t rejections = 0;  // of steps, by the control of the error
 
   void iteration() { ++iterations; }
+  void rejection() { ++rejections; }
   void factorization(FactorizationCause cause) {
     ++factorizations;
     switch (cause) {

@@ -57,6 +57,19 @@ inline constexpr ExplicitTableau<6> dormand_prince_five{
     .c = {{{}, {1, 5}, {3, 10}, {4, 5}, {8, 9}, {1, 1}}},
     .order = 5};
 
+// The same with its embedded solution of order 4: the seventh stage is the step, and b the difference of both solutions' weights.
+inline constexpr ExplicitTableau<7> dormand_prince_pair{
+    .a = {{{},
+           {{{1, 5}}},
+           {{{3, 40}, {9, 40}}},
+           {{{44, 45}, {-56, 15}, {32, 9}}},
+           {{{19372, 6561}, {-25360, 2187}, {64448, 6561}, {-212, 729}}},
+           {{{9017, 3168}, {-355, 33}, {46732, 5247}, {49, 176}, {-5103, 18656}}},
+           {{{35, 384}, {}, {500, 1113}, {125, 192}, {-2187, 6784}, {11, 84}}}}},
+    .b = {{{71, 57600}, {}, {-71, 16695}, {71, 1920}, {-17253, 339200}, {22, 525}, {-1, 40}}},
+    .c = {{{}, {1, 5}, {3, 10}, {4, 5}, {8, 9}, {1, 1}, {1, 1}}},
+    .order = 5};
+
 // Butcher's method of order 6 with 7 stages [Butcher 1964, On Runge-Kutta processes of high order].
 inline constexpr ExplicitTableau<7> butcher_six{
     .a = {{{},

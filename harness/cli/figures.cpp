@@ -39,7 +39,7 @@ std::vector<RunSpec> figure_runs(const PaperFigure& figure, bool short_form) {
   for (const std::string_view file : figure.studies) {
     const Study study = read_study(parse_json(embedded_file(file), std::string(file)));
     for (const RunSpec& run : study.runs)
-      if (run.local_steps > 0 || !short_form ||
+      if (run.local_steps > 0 || !short_form || run.method->chooses_steps ||
           run.requested_step_size >= shortest_step_of_short_form * (1.0 - 1e-12))
         runs.push_back(run);
   }

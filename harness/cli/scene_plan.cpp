@@ -28,6 +28,10 @@ MethodOptions method_options(const std::string& integrator, const std::vector<st
                                                  quoted_list(names), suggestion(integrator, names)));
   if (const std::string reason = misfit(*method, constrained); !reason.empty())
     throw InputError("--integrator", reason);
+  if (method->chooses_steps)
+    throw InputError("--integrator", fmt::format("{} chooses its steps, and here they are those of --h; "
+                                                 "studies run it (liebench run)",
+                                                 integrator));
   std::vector<std::string> keys;
   for (const OptionInfo& info : method->options) keys.emplace_back(info.name);
   OptionValues values;

@@ -10,6 +10,7 @@
 
 #include "integrators/list.h"
 #include "integrators/option.h"
+#include "integrators/step_control.h"
 #include "tests/support/steppers.h"
 
 // Every integrator of the program in every combination of its options, for laws that hold for all of them. A new method
@@ -82,7 +83,8 @@ struct MethodCase {
 template <class Method, MechanicalSystem S>
 std::vector<MethodCase<S>> cases_of() {
   std::vector<MethodCase<S>> cases;
-  if constexpr (may_fit<Method, S>())
+  // What chooses its steps has other laws.
+  if constexpr (may_fit<Method, S>() && !chooses_steps<Method>())
     for (const OptionValues& values : option_combinations<Method>(S::constraints > 0))
       cases.push_back({Method::name, values, [options = Method::options(values)](const S& system) {
                          return make_stepper<Method, S>(options, system);
