@@ -102,7 +102,6 @@ class HalfExplicitStepper {
     const Velocity<S> V = velocity_ + weighted_sum<tableau, 1>(h_, stages.F);
     const Configuration<S> Q = moved(theta);
     solver_.take(system_, Q);
-    solver_.shift();
     if (const Outcome outcome = go_on(Index<1>{}, theta, Q, V, stages); outcome != Outcome::ok)
       return {outcome};
     const T t = t_ + h_;
@@ -152,6 +151,7 @@ class HalfExplicitStepper {
       if (const Outcome outcome = outcome_of_turn(system_, next_theta); outcome != Outcome::ok)
         return outcome;
       const Configuration<S> next = moved(next_theta);
+      solver_.shift(system_, Q);
       solver_.take(system_, next);
       if (const Outcome outcome = solver_.factorize(system_, Q, next, audit_); outcome != Outcome::ok)
         return outcome;
@@ -162,7 +162,6 @@ class HalfExplicitStepper {
       const Velocity<S> force = -system_.force(stage_time<i>(), Q, V);
       solver_.solve(system_, Q, next, force, Multipliers<S>(rate / -weight), stages.F[i], stages.lambda[i],
                     audit_);
-      solver_.shift();
       const Velocity<S> next_V = known + weight * stages.F[i];
       return go_on(Index<i + 1>{}, next_theta, next, next_V, stages);
     }
@@ -203,7 +202,7 @@ class HalfExplicitStepper {
   }
   Outcome factorize_at(const Configuration<S>& q) {
     solver_.take(system_, q);
-    solver_.shift();
+    solver_.shift(system_, q);
     return solver_.factorize(system_, q, q, audit_);
   }
 

@@ -49,7 +49,7 @@ class AnyStageSolver {
   virtual void prepare(KernelAudit& audit) = 0;
   virtual bool mass_solve(const Vector& q, const Vector& a, Vector& x, KernelAudit& audit) = 0;
   virtual void take(const Vector& next) = 0;
-  virtual void shift() = 0;
+  virtual void shift(const Vector& q) = 0;
   virtual Vector rate(const T& t, const Vector& next, const Vector& v) const = 0;
   virtual Outcome factorize(const Vector& q, const Vector& next, KernelAudit& audit) = 0;
   virtual void solve(const Vector& q, const Vector& next, const Vector& a, const Vector& b, Vector& x,

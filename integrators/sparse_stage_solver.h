@@ -54,7 +54,7 @@ class StageSolver<S> {
   }
 
   void take(const S&, const Configuration<S>&) {}
-  void shift() {}
+  void shift(const S&, const Configuration<S>&) {}
   Multipliers<S> rate(const S& system, const T& t, const Configuration<S>& next, const Velocity<S>& v) const {
     return system.constraint_rate(t, next, v);
   }

@@ -24,7 +24,7 @@ namespace liebench {
 //   prepare(system, audit)                 once
 //   mass_solve(system, q, a, x, audit)     M(q) x = a; false where M is singular
 //   take(system, next)                     the constraints at this point: the rows
-//   shift()                                what were the rows are the columns
+//   shift(system, q)                       q was `next`: the forces of the rows are the columns
 //   rate(system, t, next, v)               B(next) v + Phi_t
 //   factorize(system, q, next, audit)      Outcome::singular_matrix where the rows or M are
 //   solve(system, q, next, a, b, x, y, audit)
@@ -74,7 +74,12 @@ class StageSolver<S> {
   }
 
   void take(const S& system, const Configuration<S>& next) { rows_ = system.constraint_gradient(next); }
-  void shift() { columns_ = rows_; }
+  void shift(const S& system, const Configuration<S>& q) {
+    if constexpr (!S::constant_mass) invert_mass(system, q);
+    for (int i = 0; i < m; i += block)
+      accelerations_.template middleRows<block>(i) = inverse_[std::size_t(i / block)].lazyProduct(
+          rows_.template middleCols<block>(i).transpose().template cast<Linear>());
+  }
   Multipliers<S> rate(const S& system, const T& t, const Configuration<S>& next, const Velocity<S>& v) const {
     if constexpr (requires { system.constraint_rate(t, next, v); })
       return system.constraint_rate(t, next, v);
@@ -83,15 +88,10 @@ class StageSolver<S> {
   }
 
   template <class Audit>
-  Outcome factorize(const S& system, const Configuration<S>& q, const Configuration<S>&, Audit& audit) {
-    if constexpr (!S::constant_mass) invert_mass(system, q);
+  Outcome factorize(const S&, const Configuration<S>&, const Configuration<S>&, Audit& audit) {
     audit.factorization(FactorizationCause::refresh);
     if (!regular_) return Outcome::singular_matrix;
-    linear_rows_ = linear(rows_);
-    for (int i = 0; i < m; i += block)
-      accelerations_.template middleRows<block>(i) = inverse_[std::size_t(i / block)].lazyProduct(
-          linear(columns_).template middleCols<block>(i).transpose());
-    const Complement A = linear_rows_.lazyProduct(accelerations_);
+    const Complement A = rows_.template cast<Linear>().lazyProduct(accelerations_);
     if (complement_.factorize(A)) return Outcome::ok;
     return A.allFinite() ? Outcome::singular_matrix : Outcome::non_finite;
   }
@@ -144,14 +144,13 @@ class StageSolver<S> {
   // x = M^{-1} (a - B(q)^T y), and so B(next) M^{-1} B(q)^T y = B(next) M^{-1} a - b.
   void solve_linear(const Force& a, const Rate& b, Force& x, Rate& y) const {
     const Force free = mass_inverse_times(a);
-    y = complement_.solve(linear_rows_.lazyProduct(free) - b);
+    y = complement_.solve(rows_.template cast<Linear>().lazyProduct(free) - b);
     x = free - accelerations_.lazyProduct(y);
   }
 
   std::array<Eigen::Matrix<Linear, block, block>, std::size_t(m / block)> inverse_;
   bool regular_ = false;
-  ConstraintGradient<S> rows_, columns_;
-  Eigen::Matrix<Linear, l, m> linear_rows_;
+  ConstraintGradient<S> rows_;
   Eigen::Matrix<Linear, m, l> accelerations_;  // M^{-1} B(q)^T
   DenseLu<Linear, l> complement_;
 };
@@ -177,7 +176,7 @@ class StageSolver<RunTimeSystem<T>> {
     return solver_->mass_solve(q, a, x, audit);
   }
   void take(const S&, const Vector& next) { solver_->take(next); }
-  void shift() { solver_->shift(); }
+  void shift(const S&, const Vector& q) { solver_->shift(q); }
   Vector rate(const S&, const T& t, const Vector& next, const Vector& v) const {
     return solver_->rate(t, next, v);
   }
@@ -212,7 +211,7 @@ class ErasedStageSolver final : public AnyStageSolver<typename S::Scalar> {
     return true;
   }
   void take(const Vector& next) override { solver_.take(system_, element(next)); }
-  void shift() override { solver_.shift(); }
+  void shift(const Vector& q) override { solver_.shift(system_, element(q)); }
   Vector rate(const T& t, const Vector& next, const Vector& v) const override {
     return solver_.rate(system_, t, element(next), Velocity<S>(v));
   }
