@@ -8,7 +8,9 @@
 
 #include "groups/audited_group.h"
 #include "integrators/run_time_system.h"
+#include "integrators/sparse_stage_solver.h"
 #include "integrators/sparse_step_matrix.h"
+#include "integrators/stage_solver.h"
 #include "problems/audited_system.h"
 
 namespace liebench {
@@ -136,6 +138,12 @@ class ErasedBlockSystem final : public AnySystem<typename S::Scalar> {
   bool mass_solve(const Vector& q, const Vector& a, Vector& x, KernelAudit& audit) const override {
     Vector none;
     return saddle_point(q, a, Vector::Constant(multipliers(), T(0.0)), x, none, audit);
+  }
+  std::unique_ptr<AnyStageSolver<T>> stage_solver() const override {
+    if constexpr (std::is_same_v<T, Linear>)
+      return std::make_unique<ErasedStageSolver<S>>(system_, StageSolver<S>(system_));
+    else
+      return std::make_unique<ErasedStageSolver<S>>(system_, StageSolver<S>(system_, linear_->system_));
   }
 
   const AnySystem<Linear>& linear() const override {

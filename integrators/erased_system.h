@@ -10,6 +10,7 @@
 #include "integrators/consistent_projection.h"
 #include "integrators/mass_solver.h"
 #include "integrators/run_time_system.h"
+#include "integrators/stage_solver.h"
 #include "integrators/step_matrix.h"
 
 namespace liebench {
@@ -159,6 +160,12 @@ class ErasedSystem final : public AnySystem<typename S::Scalar> {
     if (!mass.solve(system_, element(q), a, solution, audit)) return false;
     x = solution;
     return true;
+  }
+  std::unique_ptr<AnyStageSolver<T>> stage_solver() const override {
+    if constexpr (S::constraints == 0)
+      return nullptr;
+    else
+      return std::make_unique<ErasedStageSolver<S>>(system_, StageSolver<S>(system_));
   }
 
   const AnySystem<Linear>& linear() const override {

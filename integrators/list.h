@@ -5,6 +5,7 @@
 #include "integrators/crouch_grossman.h"
 #include "integrators/faltinsen_bdf.h"
 #include "integrators/generalized_alpha.h"
+#include "integrators/half_explicit.h"
 #include "integrators/rkmk.h"
 #include "integrators/rkmk_variable.h"
 
@@ -15,7 +16,7 @@ struct IntegratorList {};
 
 // Every integrator of the program. A method that is not in this list is nowhere; one that is in it is in
 // every command.
-using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, Rkmk, RkmkVariable,
-                                   CommutatorFree, CrouchGrossman>;
+using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, HalfExplicit, Rkmk,
+                                   RkmkVariable, CommutatorFree, CrouchGrossman>;
 
 }  // namespace liebench

@@ -40,6 +40,23 @@ class AnyStepMatrix {
   virtual std::unique_ptr<AnyStepMatrix> clone() const = 0;
 };
 
+// What solves the linear systems of half-explicit stages; see StageSolver.
+template <class T>
+class AnyStageSolver {
+ public:
+  using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+  virtual ~AnyStageSolver() = default;
+  virtual void prepare(KernelAudit& audit) = 0;
+  virtual bool mass_solve(const Vector& q, const Vector& a, Vector& x, KernelAudit& audit) = 0;
+  virtual void take(const Vector& next) = 0;
+  virtual void shift(const Vector& q) = 0;
+  virtual Vector rate(const T& t, const Vector& next, const Vector& v) const = 0;
+  virtual Outcome factorize(const Vector& q, const Vector& next, KernelAudit& audit) = 0;
+  virtual void solve(const Vector& q, const Vector& next, const Vector& a, const Vector& b, Vector& x,
+                     Vector& y, KernelAudit& audit) const = 0;
+  virtual std::unique_ptr<AnyStageSolver> clone() const = 0;
+};
+
 // What a system and its group give, see the concepts; q by its stacked representation.
 template <class T>
 class AnySystem {
@@ -82,6 +99,8 @@ class AnySystem {
   // Whether M depends on nothing, and x with M(q) x = a; see integrators/mass_solver.h.
   virtual bool constant_mass() const = 0;
   virtual bool mass_solve(const Vector& q, const Vector& a, Vector& x, KernelAudit& audit) const = 0;
+  // Of a system with constraints.
+  virtual std::unique_ptr<AnyStageSolver<T>> stage_solver() const = 0;
 
   // The system in the scalar of the linear algebra, and the Newton matrix of such a one.
   virtual const AnySystem<Linear>& linear() const = 0;
@@ -175,6 +194,7 @@ class RunTimeSystem {
   bool mass_solve(const Vector& q, const Vector& a, Vector& x, KernelAudit& audit) const {
     return system_->mass_solve(q, a, x, audit);
   }
+  std::unique_ptr<AnyStageSolver<T>> stage_solver() const { return system_->stage_solver(); }
 
   template <Form form>
   class StepMatrix;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -12,18 +13,30 @@
 
 namespace liebench {
 
+// (numerator + root_three sqrt(3)) / denominator
 struct Fraction {
   std::int64_t numerator = 0;
   std::int64_t denominator = 1;
+  std::int64_t root_three = 0;
+
+  constexpr bool is_zero() const { return numerator == 0 && root_three == 0; }
 };
 
-// Numbers of a double's 53 bits.
+namespace detail {
+template <class T>
+inline const T square_root_of_three = sqrt(T(3.0));
+}  // namespace detail
+
+// Integers of a double's 53 bits.
 template <class T>
 T value_of(const Fraction& f) {
-  if constexpr (ScalarTraits<T>::extended)
-    return T(double(f.numerator)) / T(double(f.denominator));
-  else
-    return T(double(f.numerator) / double(f.denominator));
+  if constexpr (ScalarTraits<T>::extended) {
+    T numerator(double(f.numerator));
+    if (f.root_three != 0) numerator += T(double(f.root_three)) * detail::square_root_of_three<T>;
+    return numerator / T(double(f.denominator));
+  } else {
+    return T((double(f.numerator) + double(f.root_three) * std::numbers::sqrt3) / double(f.denominator));
+  }
 }
 
 // a_ij below the diagonal, b_i and c_i; `order` of an ordinary differential equation.
@@ -83,24 +96,33 @@ inline constexpr ExplicitTableau<7> butcher_six{
     .c = {{{}, {1, 3}, {2, 3}, {1, 3}, {1, 2}, {1, 2}, {1, 1}}},
     .order = 6};
 
-// h sum_j w_j slope_j, w the row i of the tableau (row `stages`: b); what has the weight 0 is left out. Some weight is not 0.
-template <const auto& tableau, std::size_t i, class T, class Slope, std::size_t n>
-Slope weighted_sum(const T& h, const std::array<Slope, n>& slopes) {
+// sum_j w_j x_j over the first `count` weights of the row i of the tableau (row `stages`: b); what has the weight 0 is left out. Some
+// weight is not 0.
+template <const auto& tableau, std::size_t i, std::size_t count, class Vector, std::size_t n>
+Vector combination(const std::array<Vector, n>& x) {
+  using T = typename Vector::Scalar;
   constexpr auto weights = tableau.row(i);
   constexpr std::size_t first = [&] {
     std::size_t j = 0;
-    while (weights[j].numerator == 0) ++j;
+    while (weights[j].is_zero()) ++j;
     return j;
   }();
-  Slope sum = value_of<T>(weights[first]) * slopes[first];
+  static_assert(first < count);
+  Vector sum = value_of<T>(weights[first]) * x[first];
   const auto add = [&]<std::size_t j>(std::integral_constant<std::size_t, j>) {
-    if constexpr (j > first && weights[j].numerator != 0) sum += value_of<T>(weights[j]) * slopes[j];
+    if constexpr (j > first && !weights[j].is_zero()) sum += value_of<T>(weights[j]) * x[j];
   };
   [&]<std::size_t... j>(std::index_sequence<j...>) {
     (add(std::integral_constant<std::size_t, j>{}), ...);
   }
-  (std::make_index_sequence<weights.size()>{});
-  return Slope(h * sum);
+  (std::make_index_sequence<count>{});
+  return sum;
+}
+
+// h sum_j w_j slope_j with all weights of the row.
+template <const auto& tableau, std::size_t i, class T, class Slope, std::size_t n>
+Slope weighted_sum(const T& h, const std::array<Slope, n>& slopes) {
+  return Slope(h * combination<tableau, i, tableau.row(i).size()>(slopes));
 }
 
 }  // namespace liebench

@@ -3,33 +3,24 @@
 #include <Eigen/Core>
 #include <concepts>
 #include <cstddef>
-#include <optional>
 #include <type_traits>
 
 #include "groups/block_diagonal.h"
 #include "groups/entrywise.h"
-#include "integrators/audit.h"
-#include "integrators/consistent_projection.h"
 #include "integrators/form.h"
 #include "integrators/linear_solver.h"
 #include "integrators/outcome.h"
 #include "integrators/patterned_matrix.h"
+#include "integrators/sparse_saddle_point.h"
 #include "integrators/step_equation.h"
 #include "integrators/step_matrix.h"
 #include "problems/system.h"
 
-// Newton and saddle point matrices of systems of many bodies, put together from their blocks.
+// Newton matrices of systems of many bodies, put together from their blocks.
 
 namespace liebench {
 
-// A system that gives the blocks of its matrices, one body and constraint after the other: see SceneSystem.
-template <class S>
-concept BlockSystem = MechanicalSystem<S> && SizedLieGroup<typename S::Group> && requires(const S& s) {
-  s.model().bodies;
-  s.multipliers();
-};
-
-// The matrix of StepEquation for such a system, with its unknowns (d, h lambda). In the stabilized form the change
+// The matrix of StepEquation for a system of many bodies, with its unknowns (d, h lambda). In the stabilized form the change
 // c = d + B_n^T eta is an unknown of its own, (d, h lambda, eta, c), so that no product of blocks fills the matrix:
 //
 //   [ h^2 K T          B^T     0        M*      ]    M* = h M dv'/dd + h C dv/dd
@@ -226,79 +217,6 @@ struct StepMatrixOf<S, form> {
 template <BlockSystem S>
 LinearSolver newton_solver(const S& system, Form form) {
   return with_form<S>(form, [&]<Form f>(FormConstant<f>) { return SparseStepMatrix<S, f>::solver(system); });
-}
-
-// The saddle point matrix [M B^T; B 0] of such a system at q, in the scalar of the linear algebra.
-template <BlockSystem S>
-class SparseSaddlePoint {
- public:
-  using T = typename S::Scalar;
-  using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
-
-  explicit SparseSaddlePoint(const S& system, const Configuration<S>& q)
-      : m_(velocity_size(system)), matrix_(m_ + multiplier_size(system)) {
-    matrix_.begin();
-    for (const auto& body : system.model().bodies) add(body.v, body.v, body.mass_matrix());
-    Sink sink{*this, system};
-    system.gradient(q, sink);
-    regular_ = matrix_.factorize();
-  }
-  bool regular() const { return regular_; }
-  void solve(Vector& r) const { matrix_.solve(r, r); }
-
- private:
-  struct Sink {
-    SparseSaddlePoint& to;
-    const S& system;
-    template <class Block>
-    void gradient(Eigen::Index row, int j, const Block& B) {
-      const Eigen::Index v = system.model().bodies[std::size_t(j)].v;
-      to.add(v, to.m_ + row, B.transpose());
-      to.add(to.m_ + row, v, B);
-    }
-  };
-  template <class Block>
-  void add(Eigen::Index row, Eigen::Index column, const Block& block) {
-    matrix_.add_block(row, column, block);
-  }
-  Eigen::Index m_;
-  PatternedMatrix<T> matrix_;
-  bool regular_ = false;
-};
-
-// Solved in the scalar of the linear algebra, of which `linear` is the system, and refined in that of the system.
-template <BlockSystem S, BlockSystem LinearSystem, class Audit>
-bool solve_sparse_saddle_point(const S& system, const LinearSystem& linear, const Configuration<S>& q,
-                               const Velocity<S>& a, const Multipliers<S>& b, Velocity<S>& x,
-                               Multipliers<S>& y, Audit& audit) {
-  using T = typename S::Scalar;
-  using L = typename LinearSystem::Scalar;
-  const Eigen::Index m = velocity_size(system), l = multiplier_size(system);
-  const Configuration<LinearSystem> q_linear = q.template cast<L>();
-  const SparseSaddlePoint<LinearSystem> matrix(linear, q_linear);
-  audit.factorization(FactorizationCause::start);
-  if (!matrix.regular()) return false;
-  x = zero_velocity(system);
-  y = zero_multipliers(system);
-  typename SparseSaddlePoint<LinearSystem>::Vector r(m + l);
-  for (int pass = 0; pass < refinement_passes<T>; ++pass) {
-    r.head(m) = (a - system.momentum(q, x) - system.constraint_force(q, y)).template cast<L>();
-    if (l > 0) r.tail(l) = (b - system.constraint_product(q, x)).template cast<L>();
-    matrix.solve(r);
-    audit.solve();
-    x += r.head(m).template cast<T>();
-    if (l > 0) y += r.tail(l).template cast<T>();
-  }
-  return true;
-}
-
-template <BlockSystem S, class Audit>
-std::optional<SaddlePointSolution<S>> solve_saddle_point(const S& system, const Configuration<S>& q,
-                                                         const Velocity<S>& a, const Multipliers<S>& b,
-                                                         Audit& audit) {
-  SaddlePointSolution<S> s{zero_velocity(system), zero_multipliers(system)};
-  if (!solve_sparse_saddle_point(system, system, q, a, b, s.x, s.y, audit)) return std::nullopt;
-  return s;
 }
 
 }  // namespace liebench

@@ -28,6 +28,7 @@ class MovingHeavyTop {
   using rebind = MovingHeavyTop<typename Motions::template rebind<U>>;
   static constexpr int constraints = 3;
   static constexpr bool constant_mass = true;
+  static constexpr int mass_block = 3;
 
   using Vector = Eigen::Matrix<T, 3, 1>;
   using Matrix = Eigen::Matrix<T, 3, 3>;
