@@ -20,8 +20,9 @@
 //   h v'_{n+1} = sum_{i=0}^k alpha_i v_{n+1-i}
 //
 // They differ in kappa alone, what the curvature of the group adds to the kinematic equation: -h^2 L_k for BLieDF2nd
-// (integrators/lie_correction.h), the logarithms of Faltinsen et al. for theirs (integrators/faltinsen_kinematics.h). In
-// the stabilized index-2 form gamma_1 B(q_n)^T eta_{n+1} joins the first line.
+// (integrators/lie_correction.h), the logarithms of Faltinsen et al. for theirs (integrators/faltinsen_kinematics.h), those
+// about the new point for the centred one (integrators/centred_kinematics.h). In the stabilized index-2 form
+// gamma_1 B(q_n)^T eta_{n+1} joins the first line.
 //
 // Both lines are evaluated in differences. With d_j = Dq_j - Dq_{j-1}, and by (5),
 //
@@ -48,6 +49,18 @@ struct BdfState {
         kappa(velocity),
         velocity_changes(steps + 1, velocity),
         increment_changes(steps + 1, velocity) {}
+
+  // By how much the last `steps` steps turn, all together [rad]: a bound of the angle of their product.
+  template <class Group>
+  LinearScalar<T> turn(const Group& group, int steps) const {
+    Velocity<S> Dq = increment;
+    LinearScalar<T> angle = 0.0;
+    for (int i = 0; i < steps; ++i) {
+      angle += to_linear(group.rotation_angle(h * Dq));
+      Dq -= increment_changes[i];
+    }
+    return angle;
+  }
 
   int k;
   T h = T(0.0);
