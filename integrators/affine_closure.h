@@ -8,14 +8,12 @@
 //
 //   base()             the increment at d = 0
 //   increment(d)       Dq_n = base() + d
-//   at(d)              ClosureValues: v_{n+1} - v_n, v_{n+1}, h v'_{n+1}; and, where it needs it, at(d, motion) with the
-//                      exp(h increment(d)~) that the step equation has
+//   at(d)              ClosureValues: v_{n+1} - v_n, v_{n+1}, h v'_{n+1}
 //   linearization(d)   ClosureDerivatives of v and h v' with respect to d, in the scalar of the Newton matrix
 //
-// and, if its values are not smooth to a hundredth of eps |Dq|, or depend on logarithms of several steps together,
+// and, where the new step is in a logarithm with some before it,
 //
-//   rounding()         their round-off as one of d, in units of eps |Dq|
-//   turned             by how much the steps before this one turn that are in a logarithm with it [rad], a double
+//   turned             by how much those turn [rad], a double
 
 namespace liebench {
 

@@ -62,6 +62,12 @@ struct BdfState {
     return angle;
   }
 
+  // d_n = Dq_n - Dq_{n-1}, extrapolated.
+  Velocity<S> predicted_change() const {
+    if (increment_changes.size() == 0) return Velocity<S>::Constant(increment.size(), T(0.0));
+    return increment_changes.extrapolated();
+  }
+
   int k;
   T h = T(0.0);
   BdfCoefficients<T> coefficients;
@@ -224,8 +230,7 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
   // Where v is no affine function of d, d itself is extrapolated.
   template <class Closure>
   Velocity<S> predicted_change(const Closure&) const {
-    if (state_.increment_changes.size() == 0) return zero_velocity(system());
-    return state_.increment_changes.extrapolated();
+    return state_.predicted_change();
   }
 
   // Eq. (56): v_j += Dv, [M B^T; B 0] [Dv; .] = [0; B l / h] at q_{k-1}, with the local error of the step that ends at

@@ -27,8 +27,7 @@
 //     dependent constraints more, see at_floor();
 //   - newton_diverged, when above that floor, with a matrix formed in this step, a correction grows after one that did not
 //     shrink by a factor of 2; after 60 iterations; or when an increment turns by more than 1e8 rad.
-// The round-off unit of d is eps times |d| + |Dq| / 100 (more than that where a closure rounds more, rounding()), and
-// eps |q| / h in addition where a constraint is present:
+// The round-off unit of d is eps times |d| + |Dq| / 100, and eps |q| / h in addition where a constraint is present:
 // Phi is known to eps |q| only, and its row is Phi / h. That of h lambda is eps |h lambda| and the unit of d through
 // the mass matrix. (A tolerance of eps |Dq| would do for the increment, but what it leaves of the residual acts like
 // a force eps |v| / h in every step.)
@@ -235,9 +234,7 @@ class NewtonKernel {
   // What round-off of d is relative to, apart from d itself.
   template <class Closure>
   Linear fixed_scale(const Closure& closure, const Configuration<S>& q_n, const Linear& h) const {
-    Linear share(0.01);
-    if constexpr (requires { closure.rounding(); }) share = closure.rounding();
-    Linear scale = share * largest_entry(closure.base().template cast<Linear>());
+    Linear scale = Linear(0.01) * largest_entry(closure.base().template cast<Linear>());
     if (multiplier_size(system_) != 0)
       scale += largest_entry(S::Group::stacked(q_n).template cast<Linear>()) / abs_of(h);
     return scale;

@@ -92,8 +92,6 @@ class StepEquation {
     }
     if constexpr (SizedLieGroup<typename S::Group> && requires { closure.put(p.change, p.values); })
       closure.put(p.change, p.values);
-    else if constexpr (!stabilized && requires { closure.at(p.change, p.motion); })
-      p.values = closure.at(p.change, p.motion);
     else
       p.values = closure.at(p.change);
   }
