@@ -31,12 +31,7 @@ struct CentredBdf {
       "k-step BDF method in canonical coordinates about the new point: logarithms alone";
   static constexpr Fits fits = Fits::every_system;
   static constexpr auto option_list = std::to_array<OptionInfo>({
-      {.name = "k",
-       .kind = OptionKind::integer,
-       .fallback = 2,
-       .least = 1,
-       .most = 6,
-       .meaning = "number of steps, and order"},
+      steps_option(6),
       modified_start_option,
       form_option,
       safeguard_option,

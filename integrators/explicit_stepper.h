@@ -42,6 +42,15 @@ class BasicExplicitStepper {
     mass_.prepare(system_, audit_);
   }
 
+  // take_step() with all that it calls inlined, where that pays.
+  template <class Step>
+  static StepResult inlined_step(const Step& take_step) {
+    if constexpr (inlines_all<S>)
+      return detail::flattened(take_step);
+    else
+      return take_step();
+  }
+
   // F = v'
   Outcome acceleration(const T& t, const Configuration<S>& q, const Velocity<S>& v, Velocity<S>& F) {
     const Velocity<S> force = -system_.force(t, q, v);
@@ -91,16 +100,10 @@ class ExplicitStepper : public BasicExplicitStepper<S, Audit> {
   }
 
   StepResult step() {
-    if constexpr (inlines_all<S>) {
-      return step_inlined();
-    } else {
-      return take_step();
-    }
+    return Base::inlined_step([this] { return take_step(); });
   }
 
  private:
-  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
-
   StepResult take_step() {
     const auto acceleration = [this](const T& t, const Configuration<S>& q, const Velocity<S>& v,
                                      Velocity<S>& F) { return Base::acceleration(t, q, v, F); };

@@ -82,16 +82,10 @@ class FaltinsenAdamsStepper : public BasicExplicitStepper<S, Audit> {
   }
 
   StepResult step() {
-    if constexpr (inlines_all<S>) {
-      return step_inlined();
-    } else {
-      return take_step();
-    }
+    return Base::inlined_step([this] { return take_step(); });
   }
 
  private:
-  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
-
   StepResult take_step() {
     const auto group = group_of(Base::system_);
     Velocity<S> F;
@@ -170,12 +164,7 @@ struct FaltinsenAdams {
       "move with the step";
   static constexpr Fits fits = Fits::without_constraints;
   static constexpr auto option_list = std::to_array<OptionInfo>({
-      {.name = "k",
-       .kind = OptionKind::integer,
-       .fallback = 2,
-       .least = 1,
-       .most = most_adams_steps,
-       .meaning = "number of steps, and order"},
+      steps_option(most_adams_steps),
   });
   static std::string title(const OptionValues& values) {
     return "Faltinsen Adams, k = " + std::to_string(values.integer("k"));
