@@ -10,6 +10,10 @@
 //   increment(d)       Dq_n = base() + d
 //   at(d)              ClosureValues: v_{n+1} - v_n, v_{n+1}, h v'_{n+1}
 //   linearization(d)   ClosureDerivatives of v and h v' with respect to d, in the scalar of the Newton matrix
+//
+// and, where the new step is in a logarithm with some before it,
+//
+//   turned             by how much those turn [rad], a double
 
 namespace liebench {
 

@@ -62,7 +62,7 @@ class BasicStepper {
     if constexpr (stabilized) Equation::eta(z, system()).setConstant(T(0.0));
     const T t = t_ + h_;
     StepResult result = newton_.solve(t, h_, q_, closure, z, point);
-    if (result.outcome == Outcome::ok && !turns_by_less_than_pi(point.step))
+    if (result.outcome == Outcome::ok && !turns_by_less_than_pi(point.step, turned_before(closure)))
       result = {Outcome::rotation_too_large};
     if (result.outcome != Outcome::ok) {
       if (!safeguard_ || !solve_again(t, closure, z, point)) return result;
@@ -96,15 +96,24 @@ class BasicStepper {
       if (at_rest) Equation::change(z, system()) = -closure.base();
       if constexpr (l != 0) Equation::scaled_lambda(z, system()) = h_ * lambda_;
       if (newton_.solve_damped(t, h_, q_, closure, z, point).outcome == Outcome::ok &&
-          turns_by_less_than_pi(point.step) && turns_by_less_than_pi(point.step - before))
+          turns_by_less_than_pi(point.step, turned_before(closure)) &&
+          turns_by_less_than_pi(point.step - before))
         return true;
     }
     return false;
   }
 
-  // False for a NaN, too.
-  bool turns_by_less_than_pi(const Velocity<S>& v) const {
-    return to_double(group_of(system()).rotation_angle(v)) < std::numbers::pi;
+  // Together with `before`; false for a NaN, too.
+  bool turns_by_less_than_pi(const Velocity<S>& v, double before = 0.0) const {
+    return before + to_double(group_of(system()).rotation_angle(v)) < std::numbers::pi;
+  }
+  // The steps that are in a logarithm of the closure with the new one.
+  template <class Closure>
+  static double turned_before(const Closure& closure) {
+    if constexpr (requires { closure.turned; })
+      return closure.turned;
+    else
+      return 0.0;
   }
 
   Kernel newton_;

@@ -20,8 +20,9 @@
 //   h v'_{n+1} = sum_{i=0}^k alpha_i v_{n+1-i}
 //
 // They differ in kappa alone, what the curvature of the group adds to the kinematic equation: -h^2 L_k for BLieDF2nd
-// (integrators/lie_correction.h), the logarithms of Faltinsen et al. for theirs (integrators/faltinsen_kinematics.h). In
-// the stabilized index-2 form gamma_1 B(q_n)^T eta_{n+1} joins the first line.
+// (integrators/lie_correction.h), the logarithms of Faltinsen et al. for theirs (integrators/faltinsen_kinematics.h), those
+// about the new point for the centred one (integrators/centred_kinematics.h). In the stabilized index-2 form
+// gamma_1 B(q_n)^T eta_{n+1} joins the first line.
 //
 // Both lines are evaluated in differences. With d_j = Dq_j - Dq_{j-1}, and by (5),
 //
@@ -48,6 +49,24 @@ struct BdfState {
         kappa(velocity),
         velocity_changes(steps + 1, velocity),
         increment_changes(steps + 1, velocity) {}
+
+  // By how much the last `steps` steps turn, all together [rad]: a bound of the angle of their product.
+  template <class Group>
+  LinearScalar<T> turn(const Group& group, int steps) const {
+    Velocity<S> Dq = increment;
+    LinearScalar<T> angle = 0.0;
+    for (int i = 0; i < steps; ++i) {
+      angle += to_linear(group.rotation_angle(h * Dq));
+      Dq -= increment_changes[i];
+    }
+    return angle;
+  }
+
+  // d_n = Dq_n - Dq_{n-1}, extrapolated.
+  Velocity<S> predicted_change() const {
+    if (increment_changes.size() == 0) return Velocity<S>::Constant(increment.size(), T(0.0));
+    return increment_changes.extrapolated();
+  }
 
   int k;
   T h = T(0.0);
@@ -211,8 +230,7 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
   // Where v is no affine function of d, d itself is extrapolated.
   template <class Closure>
   Velocity<S> predicted_change(const Closure&) const {
-    if (state_.increment_changes.size() == 0) return zero_velocity(system());
-    return state_.increment_changes.extrapolated();
+    return state_.predicted_change();
   }
 
   // Eq. (56): v_j += Dv, [M B^T; B 0] [Dv; .] = [0; B l / h] at q_{k-1}, with the local error of the step that ends at

@@ -36,12 +36,7 @@ struct BLieDF2nd {
       "k-step BDF method of Wieloch & Arnold with one commutator a step as correction L_k";
   static constexpr Fits fits = Fits::every_system;
   static constexpr auto option_list = std::to_array<OptionInfo>({
-      {.name = "k",
-       .kind = OptionKind::integer,
-       .fallback = 2,
-       .least = 1,
-       .most = 6,
-       .meaning = "number of steps, and order"},
+      steps_option(6),
       {.name = "correction",
        .kind = OptionKind::boolean_or_choice,
        .fallback = 1,

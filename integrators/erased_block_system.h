@@ -88,6 +88,10 @@ class ErasedBlockSystem final : public AnySystem<typename S::Scalar> {
     GroupCalls::counts().commutators += rotating_bodies();
     return system_.group().ad(v);
   }
+  BlockDiagonal<T> tangent(const Vector& v) const override {
+    GroupCalls::counts().tangent += bodies();
+    return system_.group().tangent(v);
+  }
   BlockDiagonal<T> tangent_inverse(const Vector& v) const override {
     GroupCalls::counts().tangent_inverse += bodies();
     return system_.group().tangent_inverse(v);

@@ -88,6 +88,7 @@ class ErasedSystem final : public AnySystem<typename S::Scalar> {
   Vector log(const Vector& q) const override { return Group::log(element(q)); }
   Vector commutator(const Vector& v, const Vector& w) const override { return Group::commutator(v, w); }
   BlockDiagonal<T> ad(const Vector& v) const override { return BlockDiagonal<T>({Group::ad(v)}); }
+  BlockDiagonal<T> tangent(const Vector& v) const override { return BlockDiagonal<T>({Group::tangent(v)}); }
   BlockDiagonal<T> tangent_inverse(const Vector& v) const override {
     return BlockDiagonal<T>({Group::tangent_inverse(v)});
   }

@@ -11,21 +11,14 @@
 
 namespace liebench {
 
-// What the steppers of explicit one-step methods for q' = DL_q(e) v~, M v' = -g(t, q, v) share: the state, and the solution for v'.
+// What every explicit method for q' = DL_q(e) v~, M(q) v' = -g(t, q, v) does alike: it holds the state and solves for v'. A stepper
+// adds what BasicStepper (integrators/basic_stepper.h) asks for.
 template <MechanicalSystem S, class Audit>
-class ExplicitState {
+class BasicExplicitStepper {
  public:
   using System = S;
   using T = typename S::Scalar;
 
-  explicit ExplicitState(const S& system)
-      : system_(system),
-        q_(group_of(system).identity()),
-        velocity_(zero_velocity(system)),
-        lambda_(zero_multipliers(system)) {}
-
-  int steps() const { return 1; }
-  int starting_points() const { return 1; }
   const T& time() const { return t_; }
   const Configuration<S>& configuration() const { return q_; }
   const Velocity<S>& velocity() const { return velocity_; }
@@ -34,21 +27,43 @@ class ExplicitState {
   const Audit& audit() const { return audit_; }
   Audit& audit() { return audit_; }
 
-  // From q_0 and v_0.
-  StepResult start(const T& h, std::span<const SolutionPoint<S>> points) {
+ protected:
+  explicit BasicExplicitStepper(const S& system)
+      : system_(system),
+        q_(group_of(system).identity()),
+        velocity_(zero_velocity(system)),
+        lambda_(zero_multipliers(system)) {}
+
+  void begin(const T& h, const SolutionPoint<S>& point) {
     h_ = h;
-    t_ = points[0].t;
-    q_ = points[0].q;
-    velocity_ = points[0].v;
+    t_ = point.t;
+    q_ = point.q;
+    velocity_ = point.v;
     mass_.prepare(system_, audit_);
-    return {};
   }
 
- protected:
-  // Writes F = v' and says how it went.
-  Outcome accelerate(const T& t, const Configuration<S>& q, const Velocity<S>& v, Velocity<S>& F) {
+  // take_step() with all that it calls inlined, where that pays.
+  template <class Step>
+  static StepResult inlined_step(const Step& take_step) {
+    if constexpr (inlines_all<S>)
+      return detail::flattened(take_step);
+    else
+      return take_step();
+  }
+
+  // F = v'
+  Outcome acceleration(const T& t, const Configuration<S>& q, const Velocity<S>& v, Velocity<S>& F) {
     const Velocity<S> force = -system_.force(t, q, v);
     return mass_.solve(system_, q, force, F, audit_) ? Outcome::ok : Outcome::singular_matrix;
+  }
+
+  // Moves to t_n + h, unless v is no number.
+  StepResult move_to(const Configuration<S>& q, const Velocity<S>& v) {
+    if (!std::isfinite(to_double(T(v.squaredNorm())))) return {Outcome::non_finite};
+    q_ = q;
+    velocity_ = v;
+    t_ = t_ + h_;
+    return {};
   }
 
   S system_;
@@ -61,47 +76,41 @@ class ExplicitState {
   Multipliers<S> lambda_;  // none
 };
 
-// The method is its scheme,
+// The stepper of an explicit one-step method. The method is its scheme,
 //
 //   Scheme::step(system, t, h, q, v, acceleration)   moves q and v from t to t + h, or leaves them and says why
 //
 // with acceleration(t, q, v, F), which writes F = v' and says how it went.
 template <MechanicalSystem S, class Audit, class Scheme>
-class ExplicitStepper : public ExplicitState<S, Audit> {
-  using Base = ExplicitState<S, Audit>;
+class ExplicitStepper : public BasicExplicitStepper<S, Audit> {
+  using Base = BasicExplicitStepper<S, Audit>;
 
  public:
-  using Base::Base;
   using typename Base::T;
 
+  explicit ExplicitStepper(const S& system) : Base(system) {}
+
+  int steps() const { return 1; }
+  int starting_points() const { return 1; }
+
+  // From q_0 and v_0.
+  StepResult start(const T& h, std::span<const SolutionPoint<S>> points) {
+    Base::begin(h, points[0]);
+    return {};
+  }
+
   StepResult step() {
-    if constexpr (inlines_all<S>) {
-      return step_inlined();
-    } else {
-      return take_step();
-    }
+    return Base::inlined_step([this] { return take_step(); });
   }
 
  private:
-  using Base::h_;
-  using Base::q_;
-  using Base::t_;
-  using Base::velocity_;
-
-  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
-
   StepResult take_step() {
     const auto acceleration = [this](const T& t, const Configuration<S>& q, const Velocity<S>& v,
-                                     Velocity<S>& F) { return Base::accelerate(t, q, v, F); };
-    Configuration<S> q = q_;
-    Velocity<S> v = velocity_;
-    StepResult result = Scheme::step(Base::system_, t_, h_, q, v, acceleration);
-    if (result.outcome != Outcome::ok) return result;
-    if (!std::isfinite(to_double(T(v.squaredNorm())))) return {Outcome::non_finite};
-    q_ = q;
-    velocity_ = v;
-    t_ = t_ + h_;
-    return result;
+                                     Velocity<S>& F) { return Base::acceleration(t, q, v, F); };
+    Configuration<S> q = Base::q_;
+    Velocity<S> v = Base::velocity_;
+    const StepResult result = Scheme::step(Base::system_, Base::t_, Base::h_, q, v, acceleration);
+    return result.outcome == Outcome::ok ? Base::move_to(q, v) : result;
   }
 };
 

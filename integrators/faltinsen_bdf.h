@@ -30,12 +30,7 @@ struct FaltinsenBdf {
       "step";
   static constexpr Fits fits = Fits::every_system;
   static constexpr auto option_list = std::to_array<OptionInfo>({
-      {.name = "k",
-       .kind = OptionKind::integer,
-       .fallback = 2,
-       .least = 1,
-       .most = 4,
-       .meaning = "number of steps, and order"},
+      steps_option(4),
       {.name = "variant",
        .kind = OptionKind::choice,
        .fallback = 0,

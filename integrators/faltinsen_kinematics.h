@@ -143,14 +143,7 @@ class FaltinsenKinematics {
 
   // The logarithms are those of the motion while it turns by less than pi over all of them.
   bool defined(const BdfState<S>& state) const {
-    if (!exact || k_ < 3) return true;
-    Velocity<S> Dq = state.increment;
-    LinearScalar<T> angle = 0.0;
-    for (int i = 0; i < k_ - 1; ++i) {
-      angle += to_linear(group_.rotation_angle(state.h * Dq));
-      Dq -= state.increment_changes[i];
-    }
-    return to_double(angle) < std::numbers::pi;
+    return !exact || k_ < 3 || to_double(state.turn(group_, k_ - 1)) < std::numbers::pi;
   }
 
   FaltinsenClosure<S, exact> closure(const BdfState<S>& state, const AffineClosure<S>& affine) const {

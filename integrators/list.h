@@ -1,8 +1,10 @@
 #pragma once
 
 #include "integrators/bliedf2nd.h"
+#include "integrators/centred_bdf.h"
 #include "integrators/commutator_free.h"
 #include "integrators/crouch_grossman.h"
+#include "integrators/faltinsen_adams.h"
 #include "integrators/faltinsen_bdf.h"
 #include "integrators/generalized_alpha.h"
 #include "integrators/half_explicit.h"
@@ -16,7 +18,7 @@ struct IntegratorList {};
 
 // Every integrator of the program. A method that is not in this list is nowhere; one that is in it is in
 // every command.
-using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, HalfExplicit, Rkmk,
-                                   RkmkVariable, CommutatorFree, CrouchGrossman>;
+using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, CentredBdf, HalfExplicit, Rkmk,
+                                   RkmkVariable, CommutatorFree, CrouchGrossman, FaltinsenAdams>;
 
 }  // namespace liebench

@@ -33,6 +33,16 @@ struct OptionInfo {
   std::string_view meaning;
 };
 
+// `k` of the multistep methods of order k.
+constexpr OptionInfo steps_option(int most) {
+  return {.name = "k",
+          .kind = OptionKind::integer,
+          .fallback = 2,
+          .least = 1,
+          .most = double(most),
+          .meaning = "number of steps, and order"};
+}
+
 using OptionValue = std::variant<int, double, bool, std::string>;
 
 // Values of the options of one integrator, checked against its list before. An option that does not apply is absent.

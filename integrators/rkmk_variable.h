@@ -12,7 +12,6 @@
 #include "groups/decimal.h"
 #include "integrators/explicit_stepper.h"
 #include "integrators/fits.h"
-#include "integrators/inlining.h"
 #include "integrators/option.h"
 #include "integrators/runge_kutta_munthe_kaas.h"
 #include "integrators/step_control.h"
@@ -49,8 +48,8 @@ struct RkmkVariable {
 };
 
 template <MechanicalSystem S, class Audit>
-class RkmkVariable::Stepper : public ExplicitState<S, Audit> {
-  using Base = ExplicitState<S, Audit>;
+class RkmkVariable::Stepper : public BasicExplicitStepper<S, Audit> {
+  using Base = BasicExplicitStepper<S, Audit>;
 
  public:
   using typename Base::T;
@@ -58,12 +57,15 @@ class RkmkVariable::Stepper : public ExplicitState<S, Audit> {
   Stepper(const S& system, const Options& options)
       : Base(system), tolerance_(options.tolerance), control_(5), acceleration_(zero_velocity(system)) {}
 
+  int steps() const { return 1; }
+  int starting_points() const { return 1; }
+
   // The interval [t_0, t_0 + length], from q_0 and v_0.
   StepResult start(const T& length, std::span<const SolutionPoint<S>> points) {
-    Base::start(length, points);
+    Base::begin(length, points[0]);
     t_end_ = t_ + length;
     control_ = StepControl(5);
-    const Outcome outcome = Base::accelerate(t_, q_, velocity_, acceleration_);
+    const Outcome outcome = Base::acceleration(t_, q_, velocity_, acceleration_);
     if (outcome != Outcome::ok) return {outcome};
     h_ = first_step(length);
     return {h_ != T(0.0) ? Outcome::ok : Outcome::non_finite};
@@ -72,11 +74,7 @@ class RkmkVariable::Stepper : public ExplicitState<S, Audit> {
 
   // One step that is accepted.
   StepResult step() {
-    if constexpr (inlines_all<S>) {
-      return step_inlined();
-    } else {
-      return take_step();
-    }
+    return Base::inlined_step([this] { return take_step(); });
   }
 
  private:
@@ -86,8 +84,6 @@ class RkmkVariable::Stepper : public ExplicitState<S, Audit> {
   using Base::q_;
   using Base::t_;
   using Base::velocity_;
-
-  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
 
   StepResult take_step() {
     for (;;) {
@@ -102,7 +98,7 @@ class RkmkVariable::Stepper : public ExplicitState<S, Audit> {
                                     Velocity<S>& F) {
         q_next = Q;
         v_next = V;
-        return Base::accelerate(t, Q, V, F);
+        return Base::acceleration(t, Q, V, F);
       };
       std::array<Velocity<S>, stages> K, F;
       K[0] = velocity_;

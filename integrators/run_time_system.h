@@ -76,6 +76,7 @@ class AnySystem {
   virtual Vector log(const Vector& q) const = 0;
   virtual Vector commutator(const Vector& v, const Vector& w) const = 0;
   virtual BlockDiagonal<T> ad(const Vector& v) const = 0;
+  virtual BlockDiagonal<T> tangent(const Vector& v) const = 0;
   virtual BlockDiagonal<T> tangent_inverse(const Vector& v) const = 0;
   virtual Vector tangent_times(const Vector& v, const Vector& w) const = 0;
   virtual Vector tangent_inverse_times(const Vector& v, const Vector& w) const = 0;
@@ -134,6 +135,7 @@ class RunTimeGroup {
   Tangent log(const Element& q) const { return system_->log(q); }
   Tangent commutator(const Tangent& v, const Tangent& w) const { return system_->commutator(v, w); }
   TangentMatrix ad(const Tangent& v) const { return system_->ad(v); }
+  TangentMatrix tangent(const Tangent& v) const { return system_->tangent(v); }
   TangentMatrix tangent_inverse(const Tangent& v) const { return system_->tangent_inverse(v); }
   Tangent tangent_times(const Tangent& v, const Tangent& w) const { return system_->tangent_times(v, w); }
   Tangent tangent_inverse_times(const Tangent& v, const Tangent& w) const {

@@ -13,11 +13,13 @@
 namespace liebench {
 
 // A rotation by pi and more in a step or a stage makes no sense, and by 2 pi has no T^{-1}; and an infinity or a NaN.
-template <MechanicalSystem S>
-Outcome outcome_of_turn(const S& system, const Velocity<S>& theta) {
-  const double angle = to_double(group_of(system).rotation_angle(theta));
+inline Outcome outcome_of_angle(double angle) {
   if (angle < std::numbers::pi) return Outcome::ok;
   return std::isfinite(angle) ? Outcome::rotation_too_large : Outcome::non_finite;
+}
+template <MechanicalSystem S>
+Outcome outcome_of_turn(const S& system, const Velocity<S>& theta) {
+  return outcome_of_angle(to_double(group_of(system).rotation_angle(theta)));
 }
 
 // The stages of a Runge-Kutta-Munthe-Kaas method from (t, q, v) [Munthe-Kaas 1999], for q' = DL_q(e) v~ on G and v' = F(t, q, v) on

@@ -5,19 +5,18 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include "groups/extended.h"
 #include "integrators/bliedf2nd.h"
 #include "problems/heavy_top.h"
+#include "tests/support/coordinate_bdf_laws.h"
 #include "tests/support/heavy_top_motion.h"
 #include "tests/support/heavy_top_samples.h"
+#include "tests/support/large_turns.h"
 #include "tests/support/observed_order.h"
-#include "tests/support/spinning_up.h"
 #include "tests/support/step_law.h"
 #include "tests/support/steppers.h"
 
@@ -28,11 +27,6 @@ namespace {
 using Variant = FaltinsenBdf::Variant;
 constexpr int most_steps = 4;
 constexpr std::array variants{Variant::exact, Variant::bch};
-
-template <class T>
-double unit() {
-  return to_double(Eigen::NumTraits<T>::epsilon());
-}
 
 template <MechanicalSystem S>
 std::unique_ptr<AnyStepper<S>> make(const S& system, const FaltinsenBdf::Options& options) {
@@ -98,62 +92,17 @@ class StepLaw : public BdfStepLaw<S> {
 };
 
 template <class S>
-void expect_steps_satisfy_the_equations(const HeavyTopParameters& p, const FaltinsenBdf::Options& options) {
-  using T = typename S::Scalar;
-  const S system(p);
-  const T h(1.0 / 64);
-  constexpr int steps = 40;
-  const HeavyTopMotion motion(p, 0.8);
-  const auto stepper = make(system, options);
-  const int k = options.k;
-  const auto points = exact_starting_points(system, motion, h, stepper->starting_points());
-  ASSERT_EQ(stepper->start(h, points).outcome, Outcome::ok);
-  StepLaw<S> law(system, h, options);
-  // Eq. (56) moves every starting velocity by the same vector, which the last of them shows.
-  const Velocity<S> moved = stepper->velocity() - points[std::size_t(k - 1)].v;
-  for (int j = 0; j < k; ++j) law.push(points[std::size_t(j)].q, points[std::size_t(j)].v + moved);
-
-  // As for BLieDF2nd: logarithms are known to eps, increments to eps / h, differences accumulate them over the steps.
-  const double speed = 1 + to_double(stepper->velocity().norm());
-  const double mass = to_double(VelocityMatrix<S>(system.mass_matrix(points[0].q)).norm());
-  const double kinematic = 64 * steps * unit<T>() * (speed + 2 / to_double(h));
-  const double dynamic = 64 * steps * unit<T>() * mass * (speed + 2 / to_double(h));
-  for (int n = k; n < k + steps; ++n) {
-    ASSERT_EQ(stepper->step().outcome, Outcome::ok) << text(options) << ", step " << n;
-    law.push(stepper->configuration(), stepper->velocity());
-    Velocity<S> defect = law.kinematics(Velocity<S>::Constant(T(0.0)));
-    if constexpr (S::constraints > 0) {
-      const auto& q = stepper->configuration();
-      EXPECT_LE(to_double(system.constraint(q).norm()), 64 * unit<T>()) << text(options) << ", step " << n;
-      if (options.form == Form::stabilized_index2) {
-        // The velocity is known to what the increments are.
-        const Multipliers<S> hidden = system.constraint_gradient(q) * stepper->velocity();
-        EXPECT_LE(to_double(hidden.norm()), 64 * unit<T>() * (speed + 1 / to_double(h)))
-            << text(options) << ", step " << n;
-        // eta by fixed-point sweeps, each of which gains h |v| = 0.1 at least; six equations, three unknowns.
-        Velocity<S> extra = Velocity<S>::Constant(T(0.0));
-        for (int sweep = 0; sweep < 40; ++sweep) {
-          extra -= (defect - law.without_auxiliary_multiplier(defect)) / law.gamma(1);
-          defect = law.kinematics(extra);
-        }
-      }
-    }
-    EXPECT_LE(to_double(defect.norm()), kinematic) << text(options) << ", step " << n;
-    EXPECT_LE(to_double(law.dynamics(stepper->time(), stepper->multipliers()).norm()), dynamic)
-        << text(options) << ", step " << n;
-  }
-}
-
-template <class S>
 void expect_every_method_satisfies_its_equations() {
+  const auto expect = [](const HeavyTopParameters& p, const FaltinsenBdf::Options& options) {
+    expect_steps_satisfy_the_equations<FaltinsenBdf, StepLaw, S>(p, options, text(options));
+  };
   for (const HeavyTopParameters& p : {slow_top(), unsymmetric_top(2)})
     for (const Variant variant : variants)
       for (int k = 1; k <= most_steps; ++k) {
-        expect_steps_satisfy_the_equations<S>(p, {.k = k, .variant = variant});
+        expect(p, {.k = k, .variant = variant});
         if constexpr (S::constraints > 0) {
-          expect_steps_satisfy_the_equations<S>(p, {.k = k, .variant = variant, .modified_start = true});
-          expect_steps_satisfy_the_equations<S>(
-              p, {.k = k, .variant = variant, .form = Form::stabilized_index2});
+          expect(p, {.k = k, .variant = variant, .modified_start = true});
+          expect(p, {.k = k, .variant = variant, .form = Form::stabilized_index2});
         }
       }
 }
@@ -168,31 +117,11 @@ TEST(FaltinsenBdf, ConstrainedStepsAreTheClassicalMethodInCanonicalCoordinatesAb
   expect_every_method_satisfies_its_equations<ExtendedR3xSO3>();
 }
 
-// Eq. (56) with the local error of this method: B Dv = B l / h, M Dv in the range of B^T.
 TEST(FaltinsenBdf, ModifiedStartTakesTheLocalErrorOfTheMethodFromTheSolution) {
-  using S = ExtendedR3xSO3;
-  const HeavyTopParameters p = unsymmetric_top(1);
-  const S system(p);
-  const Extended h(1.0 / 64);
-  const HeavyTopMotion motion(p, 0.2);
   for (const Variant variant : variants)
     for (int k = 1; k <= most_steps; ++k) {
       const FaltinsenBdf::Options options{.k = k, .variant = variant, .modified_start = true};
-      const auto stepper = make(system, options);
-      const auto points = exact_starting_points(system, motion, h, k + 1);
-      ASSERT_EQ(stepper->start(h, points).outcome, Outcome::ok);
-      const Velocity<S> moved = stepper->velocity() - points[std::size_t(k - 1)].v;
-      StepLaw<S> law(system, h, options);
-      for (const SolutionPoint<S>& point : points) law.push(point.q, point.v);
-      const Velocity<S> local_error = law.kinematics(Velocity<S>::Constant(Extended(0.0)));
-      const auto& q = points[std::size_t(k - 1)].q;
-      const auto B = system.constraint_gradient(q);
-      const double scale = unit<Extended>() * 1e4 / to_double(h);
-      EXPECT_LE(to_double((B * (moved - local_error)).norm()), scale) << text(options);
-      EXPECT_LE(std::abs(to_double(Extended(system.momentum(q, moved).dot(points[std::size_t(k - 1)].v)))),
-                100 * scale)
-          << text(options);
-      EXPECT_GT(to_double(moved.norm()), 1e-12) << text(options);
+      expect_modified_start_takes_the_local_error<FaltinsenBdf, StepLaw>(options, text(options));
     }
 }
 
@@ -307,73 +236,23 @@ TEST(FaltinsenBdf, VariantsDifferByOneOrderMoreThanTheirOwn) {
 
 // --- outcomes --------------------------------------------------------------------------------------------
 
-// A body that spins freely by `turn` in a step.
-Outcome spin(int k, Variant variant, double turn, int steps) {
-  HeavyTopParameters p;
-  p.gravity = {0, 0, 0};
-  p.angular_velocity = {0, 8, 0};
-  using S = HeavyTopSO3<double>;
-  const S system(p);
-  const double h = turn / 8;
-  std::vector<SolutionPoint<S>> points;
-  for (int j = 0; j <= k; ++j)
-    points.push_back({j * h,
-                      SO3<double>::exp(j * h * system.initial_velocity()),
-                      system.initial_velocity(),
-                      Eigen::Vector3d::Zero(),
-                      {}});
-  const auto stepper = make(system, {.k = k, .variant = variant});
-  Outcome outcome = stepper->start(h, points).outcome;
-  for (int n = 0; n < steps && outcome == Outcome::ok; ++n) {
-    outcome = stepper->step().outcome;
-    if (outcome != Outcome::ok) break;
-    // The right branch: a wrong one is off by 2 pi / h.
-    EXPECT_LE((stepper->velocity() - system.initial_velocity()).norm(), 1e-12) << k << ' ' << turn;
-  }
-  return outcome;
-}
-
 TEST(FaltinsenBdf, StopsWhereTheStepsOfALogarithmTogetherTurnByPiOrMore) {
   // The exact variant takes logarithms over k - 1 steps.
-  for (int k = 3; k <= most_steps; ++k) {
-    const double limit = std::numbers::pi / (k - 1);
-    EXPECT_EQ(spin(k, Variant::exact, 0.99 * limit, 8), Outcome::ok) << k;
-    EXPECT_EQ(spin(k, Variant::exact, 1.01 * limit, 8), Outcome::rotation_too_large) << k;
-  }
+  for (int k = 3; k <= most_steps; ++k)
+    expect_limit_of_spin<FaltinsenBdf>({.k = k, .variant = Variant::exact}, std::numbers::pi / (k - 1));
 }
 
 TEST(FaltinsenBdf, StopsOtherwiseWhereAStepTurnsByPiOrMore) {
   const auto check = [](int k, Variant variant) {
-    EXPECT_EQ(spin(k, variant, 0.99 * std::numbers::pi, 8), Outcome::ok) << k;
-    EXPECT_EQ(spin(k, variant, 1.01 * std::numbers::pi, 8), Outcome::rotation_too_large) << k;
+    expect_limit_of_spin<FaltinsenBdf>({.k = k, .variant = variant}, std::numbers::pi);
   };
   for (int k = 1; k <= 2; ++k) check(k, Variant::exact);
   for (int k = 1; k <= most_steps; ++k) check(k, Variant::bch);
 }
 
 TEST(FaltinsenBdf, StopsAtTheStepFromWhichALogarithmIsBeyondPi) {
-  // omega = omega_0 + a t about one axis, where every increment is the mean of omega over its step up to O(h^2) = 0.01.
-  using S = SpinningUp<double>;
-  const S system;
-  const double h = 0.25, increase = S::acceleration * h;
-  for (int k = 3; k <= most_steps; ++k) {
-    std::vector<SolutionPoint<S>> points;
-    for (int j = 0; j <= k; ++j) points.push_back(spinning_up_point(j * h));
-    const auto stepper = make(system, {.k = k, .variant = Variant::exact});
-    ASSERT_EQ(stepper->start(h, points).outcome, Outcome::ok);
-    int n = k - 1;  // the steps so far
-    Outcome outcome = Outcome::ok;
-    for (; n < 200; ++n) {
-      outcome = stepper->step().outcome;
-      if (outcome != Outcome::ok) break;
-      EXPECT_LE((stepper->velocity() - spinning_up_point((n + 1) * h).v).norm(), 1e-11) << n;
-    }
-    EXPECT_EQ(outcome, Outcome::rotation_too_large);
-    // From t_n: omega over the k - 1 steps before it.
-    const double omega = spinning_up_point(n * h).v.norm() - 0.5 * (k - 1) * increase;
-    EXPECT_NEAR((k - 1) * h * omega, std::numbers::pi, 2 * (k - 1) * h * increase) << k;
-    EXPECT_EQ(stepper->time(), n * h);
-  }
+  for (int k = 3; k <= most_steps; ++k)
+    expect_stop_where_logarithms_span_pi<FaltinsenBdf>({.k = k, .variant = Variant::exact}, k - 1, 0);
 }
 
 TEST(FaltinsenBdf, OptionsSelectTheStepper) {
