@@ -5,7 +5,12 @@
 #include "integrators/crouch_grossman.h"
 #include "integrators/faltinsen_bdf.h"
 #include "integrators/generalized_alpha.h"
+#include "integrators/implicit_midpoint.h"
+#include "integrators/liemid.h"
+#include "integrators/newmark.h"
+#include "integrators/rattlie.h"
 #include "integrators/rkmk.h"
+#include "integrators/shakelie.h"
 
 namespace liebench {
 
@@ -14,6 +19,7 @@ struct IntegratorList {};
 
 // Every integrator of the program. A method that is not in this list is nowhere; one that is in it is in
 // every command.
-using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, Rkmk, CommutatorFree, CrouchGrossman>;
+using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, Rkmk, CommutatorFree,
+                                   CrouchGrossman, Rattlie, Shakelie, Liemid, ImplicitMidpoint, Newmark>;
 
 }  // namespace liebench
