@@ -68,9 +68,9 @@ class Liemid::Stepper : public MomentumStepper<S, Audit, AdjointTransport> {
   using typename Base::T;
 
   Stepper(const S& system, const Options& options)
-      : Base(system), parts_(options.variant == Variant::half_steps ? 2 : 1) {
-    changes_.fill(History<Velocity<S>, 3>(3, zero_velocity(system)));
-  }
+      : Base(system),
+        parts_(options.variant == Variant::half_steps ? 2 : 1),
+        changes_{{{3, zero_velocity(system)}, {3, zero_velocity(system)}}} {}
 
   StepResult step() {
     if constexpr (inlines_all<S>) {

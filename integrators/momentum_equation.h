@@ -90,12 +90,10 @@ class MomentumEquation : public StepEquation<S, Form::index3> {
     // No matrix of explicit forces asks for it, but it has its size.
     set(p.values.scaled_acceleration, p.change);
     set(p.step, h * p.values.velocity);
-    if constexpr (InPlaceSystem<S>) {
-      system.group().put_motion(q_n, p.step, p.motion, p.q);
-    } else {
-      p.motion = group_of(system).exp(p.step);
-      p.q = group_of(system).compose(q_n, p.motion);
-    }
+    if (multiplier_size(system) != 0)
+      move(system, q_n, p);
+    else
+      p.q = q_n;
     set(p.balance, system.momentum(q_n, p.change));
     set(p.momentum, closure.base_momentum + p.balance);
     const Velocity<S> back = -p.step;
@@ -105,6 +103,16 @@ class MomentumEquation : public StepEquation<S, Form::index3> {
         const Multipliers<S> impulse = Base::scaled_lambda(z, system);
         set(p.balance, p.balance + system.constraint_force(q_n, impulse));
       }
+  }
+
+  // q_{n+1} = q_n o exp(h Dq~): without constraints no iteration asks for it, and the solution has still to be moved.
+  [[gnu::always_inline]] static void move(const S& system, const Configuration<S>& q_n, Point& p) {
+    if constexpr (InPlaceSystem<S>) {
+      system.group().put_motion(q_n, p.step, p.motion, p.q);
+    } else {
+      p.motion = group_of(system).exp(p.step);
+      p.q = group_of(system).compose(q_n, p.motion);
+    }
   }
 
   [[gnu::always_inline]] static void residual(const S& system, const T& t, const T& h, const Point& p,

@@ -76,6 +76,7 @@ class MomentumStepper : public BasicStepper<S, Form::index3, Audit, MomentumEqua
     const StepResult result = newton_.solve(t, h, q, closure, z, point);
     if (result.outcome != Outcome::ok) return result;
     if (!Base::turns_by_less_than_pi(point.step)) return {Outcome::rotation_too_large};
+    if (multiplier_size(system()) == 0) Equation::move(system(), q, point);
     set(change, Equation::change(z, system()));
     if constexpr (S::constraints != 0) set(impulse, Equation::scaled_lambda(z, system()));
     return result;
