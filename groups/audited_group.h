@@ -12,9 +12,9 @@ namespace liebench {
 struct GroupCalls {
   std::uint64_t exp = 0;
   std::uint64_t log = 0;
-  std::uint64_t tangent = 0;          // T(v), T(v) w, A T(v)
-  std::uint64_t tangent_inverse = 0;  // T(v)^{-1}, T(v)^{-1} w
-  std::uint64_t commutators = 0;      // [v, w], and ad(v), its matrix
+  std::uint64_t tangent = 0;          // T(v), T(v) w, A T(v); Ad(exp(v~))^T w
+  std::uint64_t tangent_inverse = 0;  // T(v)^{-1}, T(v)^{-1} w, T(v)^{-T} w
+  std::uint64_t commutators = 0;      // [v, w], ad(v)^T w, and ad(v), the matrix
 
   // Of this thread, since it began.
   static GroupCalls& counts() {
@@ -63,6 +63,18 @@ struct AuditedGroup : G {
   static Tangent tangent_inverse_times(const Tangent& v, const Tangent& w) {
     ++GroupCalls::counts().tangent_inverse;
     return G::tangent_inverse_times(v, w);
+  }
+  static Tangent coadjoint(const Tangent& v, const Tangent& w) {
+    ++GroupCalls::counts().commutators;
+    return G::coadjoint(v, w);
+  }
+  static Tangent tangent_inverse_transposed_change(const Tangent& v, const Tangent& w) {
+    ++GroupCalls::counts().tangent_inverse;
+    return G::tangent_inverse_transposed_change(v, w);
+  }
+  static Tangent adjoint_transposed_change(const Tangent& v, const Tangent& w) {
+    ++GroupCalls::counts().tangent;
+    return G::adjoint_transposed_change(v, w);
   }
   template <class Matrix>
   static auto times_tangent(const Matrix& A, const Tangent& v) {

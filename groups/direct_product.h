@@ -47,6 +47,17 @@ struct DirectProduct {
   static Tangent tangent_inverse_times(const Tangent& v, const Tangent& w) {
     return join(A::tangent_inverse_times(head(v), head(w)), B::tangent_inverse_times(tail(v), tail(w)));
   }
+  static Tangent coadjoint(const Tangent& v, const Tangent& w) {
+    return join(A::coadjoint(head(v), head(w)), B::coadjoint(tail(v), tail(w)));
+  }
+  static Tangent tangent_inverse_transposed_change(const Tangent& v, const Tangent& w) {
+    return join(A::tangent_inverse_transposed_change(head(v), head(w)),
+                B::tangent_inverse_transposed_change(tail(v), tail(w)));
+  }
+  static Tangent adjoint_transposed_change(const Tangent& v, const Tangent& w) {
+    return join(A::adjoint_transposed_change(head(v), head(w)),
+                B::adjoint_transposed_change(tail(v), tail(w)));
+  }
   template <class Derived>
   static Eigen::Matrix<Scalar, Derived::RowsAtCompileTime, dimension> times_tangent(
       const Eigen::MatrixBase<Derived>& M, const Tangent& v) {

@@ -20,6 +20,9 @@ namespace liebench {
 //   tangent_inverse(v)   T(v)^{-1}; singular where a rotation angle is 2 pi
 //   tangent_times(v, w)  T(v) w, by vector products
 //   tangent_inverse_times(v, w)   T(v)^{-1} w, by vector products
+//   coadjoint(v, w)      ad(v)^T w, by vector products; and of momenta, w, what these operators change of them:
+//   tangent_inverse_transposed_change(v, w)   (T(v)^{-T} - I) w
+//   adjoint_transposed_change(v, w)           (Ad(exp(v~))^T - I) w, Ad(exp(v~)) = exp(ad(v))
 //   times_tangent(A, v)  A T(v) for A with m columns, without the products that the structure of T makes trivial
 //   represented(q)       what q stands for, an element of the group Represented: rotation matrices and positions.
 //                        Elements of different groups are compared through it. Its group law need not be that
@@ -54,6 +57,9 @@ concept LieGroup = Scalar<typename G::Scalar> && std::copyable<typename G::Eleme
   { G::tangent_inverse(v) } -> std::same_as<typename G::TangentMatrix>;
   { G::tangent_times(v, v) } -> std::same_as<typename G::Tangent>;
   { G::tangent_inverse_times(v, v) } -> std::same_as<typename G::Tangent>;
+  { G::coadjoint(v, v) } -> std::same_as<typename G::Tangent>;
+  { G::tangent_inverse_transposed_change(v, v) } -> std::same_as<typename G::Tangent>;
+  { G::adjoint_transposed_change(v, v) } -> std::same_as<typename G::Tangent>;
   { G::times_tangent(two_rows, v) } -> std::same_as<Eigen::Matrix<typename G::Scalar, 2, G::dimension>>;
   { G::represented(q) } -> std::same_as<typename G::Represented::Element>;
   { G::representative(G::represented(q)) } -> std::same_as<typename G::Element>;
@@ -94,6 +100,9 @@ concept SizedLieGroup = Scalar<typename G::Scalar> && std::copyable<typename G::
   { group.ad(v) } -> std::same_as<typename G::TangentMatrix>;
   { group.tangent_times(v, v) } -> std::same_as<typename G::Tangent>;
   { group.tangent_inverse_times(v, v) } -> std::same_as<typename G::Tangent>;
+  { group.coadjoint(v, v) } -> std::same_as<typename G::Tangent>;
+  { group.tangent_inverse_transposed_change(v, v) } -> std::same_as<typename G::Tangent>;
+  { group.adjoint_transposed_change(v, v) } -> std::same_as<typename G::Tangent>;
   { group.rotation_angle(v) } -> std::same_as<typename G::Scalar>;
 };
 

@@ -31,6 +31,13 @@ struct RealSpace {
   static TangentMatrix tangent_inverse(const Tangent&) { return TangentMatrix::Identity(); }
   static Tangent tangent_times(const Tangent&, const Tangent& w) { return w; }
   static Tangent tangent_inverse_times(const Tangent&, const Tangent& w) { return w; }
+  static Tangent coadjoint(const Tangent&, const Tangent&) { return Tangent::Constant(T(0.0)); }
+  static Tangent tangent_inverse_transposed_change(const Tangent&, const Tangent&) {
+    return Tangent::Constant(T(0.0));
+  }
+  static Tangent adjoint_transposed_change(const Tangent&, const Tangent&) {
+    return Tangent::Constant(T(0.0));
+  }
   template <class Derived>
   static Eigen::Matrix<T, Derived::RowsAtCompileTime, n> times_tangent(const Eigen::MatrixBase<Derived>& A,
                                                                        const Tangent&) {

@@ -73,13 +73,29 @@ struct RigidMotionAlgebra {
 
   static Tangent tangent_times(const Tangent& v, const Tangent& w) {
     const T x_squared = turn(v).squaredNorm();
-    return polynomial_times(v, w, T(-sinc_versine<T>(x_squared).versine), versine_slope<T>(x_squared),
+    return polynomial_times(v, w, w, T(-sinc_versine<T>(x_squared).versine), versine_slope<T>(x_squared),
                             sine_defect<T>(x_squared), T(-sine_defect_slope<T>(x_squared)));
   }
   static Tangent tangent_inverse_times(const Tangent& v, const Tangent& w) {
     const T x_squared = turn(v).squaredNorm();
-    return polynomial_times(v, w, T(0.5), T(0.0), cotangent_defect<T>(x_squared),
+    return polynomial_times(v, w, w, T(0.5), T(0.0), cotangent_defect<T>(x_squared),
                             cotangent_slope<T>(x_squared));
+  }
+
+  static Tangent coadjoint(const Tangent& v, const Tangent& w) {
+    return join(shift(w).cross(turn(v)), shift(w).cross(shift(v)) + turn(w).cross(turn(v)));
+  }
+  static Tangent tangent_inverse_transposed_change(const Tangent& v, const Tangent& w) {
+    const T x_squared = turn(v).squaredNorm();
+    return transposed_change(v, w, T(0.5), T(0.0), cotangent_defect<T>(x_squared),
+                             cotangent_slope<T>(x_squared));
+  }
+  // F = exp(skew(Omega)) = I + s skew(Omega) + b skew(Omega)^2; (1/x) ds/dx = (cos x - s) / x^2 = c - b
+  static Tangent adjoint_transposed_change(const Tangent& v, const Tangent& w) {
+    const T x_squared = turn(v).squaredNorm();
+    const auto [sinc, versine] = sinc_versine<T>(x_squared);
+    return transposed_change(v, w, sinc, T(sine_defect<T>(x_squared) - versine), versine,
+                             T(-versine_slope<T>(x_squared)));
   }
 
   // [A1 F, A1 D + A2 F] for A = [A1, A2]
@@ -116,17 +132,24 @@ struct RigidMotionAlgebra {
   }
 
  private:
-  // (F a + D alpha, F alpha) for w = (a, alpha), F = I + f skew(Omega) + g skew(Omega)^2 and D its derivative along U, by vector
-  // products; slopes as in skew_polynomial_derivative.
-  static Tangent polynomial_times(const Tangent& v, const Tangent& w, const T& f, const T& f_slope,
-                                  const T& g, const T& g_slope) {
+  // start + ((F - I) a + D alpha, (F - I) alpha) for w = (a, alpha), F = I + f skew(Omega) + g skew(Omega)^2 and D its derivative
+  // along U, by vector products; slopes as in skew_polynomial_derivative.
+  static Tangent polynomial_times(const Tangent& v, const Tangent& w, const Tangent& start, const T& f,
+                                  const T& f_slope, const T& g, const T& g_slope) {
     const Vector U = shift(v), omega = turn(v);
     const T rate = omega.dot(U);
     const Vector a_once = omega.cross(shift(w)), once = omega.cross(turn(w)), across = U.cross(turn(w));
     const Vector twice = omega.cross(once);
-    return join(shift(w) + f * (a_once + across) + g * (omega.cross(a_once + across) + U.cross(once)) +
+    return join(shift(start) + f * (a_once + across) + g * (omega.cross(a_once + across) + U.cross(once)) +
                     rate * (f_slope * once + g_slope * twice),
-                turn(w) + f * once + g * twice);
+                turn(start) + f * once + g * twice);
+  }
+  // ((F^T - I) a, D^T a + (F^T - I) alpha): F^T and D^T are F and D with -f for f, and change places.
+  static Tangent transposed_change(const Tangent& v, const Tangent& w, const T& f, const T& f_slope,
+                                   const T& g, const T& g_slope) {
+    const Tangent change = polynomial_times(v, join(turn(w), shift(w)), Tangent::Constant(T(0.0)), T(-f),
+                                            T(-f_slope), g, g_slope);
+    return join(turn(change), shift(change));
   }
 
   struct TangentBlocks {

@@ -64,6 +64,18 @@ struct RotationAlgebra {
     return w + T(0.5) * once + cotangent_defect<T>(v.squaredNorm()) * v.cross(once);
   }
 
+  static Tangent coadjoint(const Tangent& v, const Tangent& w) { return w.cross(v); }
+  static Tangent tangent_inverse_transposed_change(const Tangent& v, const Tangent& w) {
+    const Tangent once = v.cross(w);
+    return cotangent_defect<T>(v.squaredNorm()) * v.cross(once) - T(0.5) * once;
+  }
+  // exp(skew(v))^T = I - s skew(v) + b skew(v)^2
+  static Tangent adjoint_transposed_change(const Tangent& v, const Tangent& w) {
+    const auto [sinc, versine] = sinc_versine<T>(v.squaredNorm());
+    const Tangent once = v.cross(w);
+    return versine * v.cross(once) - sinc * once;
+  }
+
   template <class Derived>
   static Eigen::Matrix<T, Derived::RowsAtCompileTime, 3> times_tangent(const Eigen::MatrixBase<Derived>& A,
                                                                        const Tangent& v) {

@@ -21,7 +21,7 @@ namespace liebench {
 //   step()            t_n -> t_{n+1}
 inline constexpr int most_starting_points = 7;
 
-template <MechanicalSystem S, Form form, class Audit>
+template <MechanicalSystem S, Form form, class Audit, class Equation = StepEquation<S, form>>
 class BasicStepper {
  public:
   using System = S;
@@ -37,10 +37,10 @@ class BasicStepper {
   Audit& audit() { return newton_.audit(); }
 
  protected:
-  using Kernel = NewtonKernel<S, form, Audit>;
+  using Kernel = NewtonKernel<S, form, Audit, Equation>;
   using Point = typename Kernel::Point;
   static constexpr int l = S::constraints;
-  static constexpr bool stabilized = Kernel::Equation::stabilized;
+  static constexpr bool stabilized = Equation::stabilized;
 
   BasicStepper(const S& system, bool safeguard)
       : newton_(system),
@@ -55,7 +55,6 @@ class BasicStepper {
   template <class Closure>
   StepResult advance(const Closure& closure, Velocity<S>& change, Multipliers<S>& scaled_lambda,
                      Point& point) {
-    using Equation = typename Kernel::Equation;
     typename Kernel::Unknowns z = Equation::unknowns(system());
     set(Equation::change(z, system()), change);
     if constexpr (l != 0) set(Equation::scaled_lambda(z, system()), scaled_lambda);
@@ -89,7 +88,6 @@ class BasicStepper {
   template <class Closure>
   [[gnu::noinline, gnu::cold]] bool solve_again(const T& t, const Closure& closure,
                                                 typename Kernel::Unknowns& z, Point& point) {
-    using Equation = typename Kernel::Equation;
     const Velocity<S> before = stepped_ ? last_step_ : Velocity<S>(h_ * velocity_);
     for (const bool at_rest : {false, true}) {
       z.setConstant(T(0.0));

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "groups/audited_group.h"
+#include "integrators/mass_solver.h"
 #include "integrators/run_time_system.h"
 #include "integrators/sparse_stage_solver.h"
 #include "integrators/sparse_step_matrix.h"
@@ -104,6 +105,18 @@ class ErasedBlockSystem final : public AnySystem<typename S::Scalar> {
     GroupCalls::counts().tangent_inverse += bodies();
     return system_.group().tangent_inverse_times(v, w);
   }
+  Vector coadjoint(const Vector& v, const Vector& w) const override {
+    GroupCalls::counts().commutators += rotating_bodies();
+    return system_.group().coadjoint(v, w);
+  }
+  Vector tangent_inverse_transposed_change(const Vector& v, const Vector& w) const override {
+    GroupCalls::counts().tangent_inverse += bodies();
+    return system_.group().tangent_inverse_transposed_change(v, w);
+  }
+  Vector adjoint_transposed_change(const Vector& v, const Vector& w) const override {
+    GroupCalls::counts().tangent += bodies();
+    return system_.group().adjoint_transposed_change(v, w);
+  }
   T rotation_angle(const Vector& v) const override { return system_.group().rotation_angle(v); }
 
   Vector momentum(const Vector& q, const Vector& w) const override { return system_.momentum(q, w); }
@@ -140,8 +153,7 @@ class ErasedBlockSystem final : public AnySystem<typename S::Scalar> {
 
   bool constant_mass() const override { return false; }
   bool mass_solve(const Vector& q, const Vector& a, Vector& x, KernelAudit& audit) const override {
-    Vector none;
-    return saddle_point(q, a, Vector::Constant(multipliers(), T(0.0)), x, none, audit);
+    return MassSolver<S>().solve(system_, q, a, x, audit);
   }
   std::unique_ptr<AnyStageSolver<T>> stage_solver() const override {
     if constexpr (std::is_same_v<T, Linear>)

@@ -38,12 +38,15 @@ class ErasedStepMatrix final : public AnyStepMatrix<typename S::Scalar> {
     typename Equation::Unknowns z = Equation::Unknowns::Constant(T(0.0));
     Equation::scaled_lambda(z, system_) = p.scaled_lambda;
     const auto q_n = S::Group::unstacked(p.q_n);
-    if (const auto* scalar = std::get_if<ClosureDerivatives<T>>(&derivatives))
-      return matrix_.factorize_at(system_, p.t, p.h, q_n, *scalar, point, z);
+    const auto with = [&](const auto& d) {
+      return matrix_.factorize_at(system_, p.t, p.h, q_n, d, point, z);
+    };
+    if (const auto* scalar = std::get_if<ClosureDerivatives<T>>(&derivatives)) return with(*scalar);
+    if constexpr (form == Form::index3)
+      if (const auto* scalar = std::get_if<ClosureDerivatives<T, true>>(&derivatives)) return with(*scalar);
     const auto& blocks = std::get<ClosureDerivatives<BlockDiagonal<T>>>(derivatives);
-    const ClosureDerivatives<VelocityMatrix<S>> matrices{blocks.velocity.blocks().front(),
-                                                         blocks.scaled_acceleration.blocks().front()};
-    return matrix_.factorize_at(system_, p.t, p.h, q_n, matrices, point, z);
+    return with(ClosureDerivatives<VelocityMatrix<S>>{blocks.velocity.blocks().front(),
+                                                      blocks.scaled_acceleration.blocks().front()});
   }
   Vector solve(const Vector& r) const override { return matrix_.solve(r); }
   T mass_scale() const override { return matrix_.mass_scale(); }
@@ -95,6 +98,13 @@ class ErasedSystem final : public AnySystem<typename S::Scalar> {
   Vector tangent_times(const Vector& v, const Vector& w) const override { return Group::tangent_times(v, w); }
   Vector tangent_inverse_times(const Vector& v, const Vector& w) const override {
     return Group::tangent_inverse_times(v, w);
+  }
+  Vector coadjoint(const Vector& v, const Vector& w) const override { return Group::coadjoint(v, w); }
+  Vector tangent_inverse_transposed_change(const Vector& v, const Vector& w) const override {
+    return Group::tangent_inverse_transposed_change(v, w);
+  }
+  Vector adjoint_transposed_change(const Vector& v, const Vector& w) const override {
+    return Group::adjoint_transposed_change(v, w);
   }
   T rotation_angle(const Vector& v) const override { return Group::rotation_angle(v); }
 

@@ -38,6 +38,14 @@ struct GeneralizedAlphaParameters {
         alpha_f(rho / (rho + T(1.0))),
         beta(T(1.0) / ((rho + T(1.0)) * (rho + T(1.0)))),
         gamma((T(3.0) - rho) / (T(2.0) * (rho + T(1.0)))) {}
+
+  // Newmark's: beta and gamma as for rho = 1, v' at t_{n+1} alone, and so a = v'.
+  static GeneralizedAlphaParameters average_acceleration() {
+    GeneralizedAlphaParameters p(T(1.0));
+    p.alpha_m = p.alpha_f = T(0.0);
+    return p;
+  }
+  bool takes_accelerations_for_a() const { return to_double(alpha_m) == 0.0 && to_double(alpha_f) == 0.0; }
 };
 
 struct GeneralizedAlpha {
@@ -98,9 +106,12 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
   int starting_points() const { return 1; }
 
   Stepper(const S& system, const Options& options)
-      : Base(system, options.safeguard),
-        modified_start_(options.modified_start),
-        parameters_(decimal<T>(options.rho_inf)),
+      : Stepper(system, GeneralizedAlphaParameters<T>(decimal<T>(options.rho_inf)), options.safeguard) {
+    modified_start_ = options.modified_start;
+  }
+  Stepper(const S& system, const GeneralizedAlphaParameters<T>& parameters, bool safeguard)
+      : Base(system, safeguard),
+        parameters_(parameters),
         acceleration_(zero_velocity(system)),
         a_(acceleration_),
         changes_(3, acceleration_),
@@ -115,6 +126,8 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
     velocity_ = points[0].v;
     acceleration_ = points[0].acceleration;
     lambda_ = points[0].lambda;
+    a_ = acceleration_;
+    if (parameters_.takes_accelerations_for_a()) return {};
     std::array<Velocity<S>, 2> around;
     const auto group = group_of(system());
     const T width = Base::safeguard_ ? width_of_start(h) : h;
@@ -213,7 +226,7 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
     return {};
   }
 
-  bool modified_start_;
+  bool modified_start_ = false;
   GeneralizedAlphaParameters<T> parameters_;
   Velocity<S> acceleration_;                   // v'_n
   Velocity<S> a_;                              // a_n

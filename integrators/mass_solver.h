@@ -13,16 +13,31 @@ namespace liebench {
 // solve() is false where M is singular.
 template <MechanicalSystem S>
 class MassSolver {
+  using T = typename S::Scalar;
+
  public:
   template <class Audit>
   void prepare(const S&, Audit&) {}
 
-  // Of a scene: its saddle point without multipliers.
+  // Of a scene, body by body.
   template <class Audit>
-  bool solve(const S& system, const Configuration<S>& q, const Velocity<S>& a, Velocity<S>& x, Audit& audit) {
-    const auto solution = solve_saddle_point(system, q, a, zero_multipliers(system), audit);
-    if (solution) x = solution->x;
-    return solution.has_value();
+  bool solve(const S& system, const Configuration<S>&, const Velocity<S>& a, Velocity<S>& x, Audit& audit) {
+    audit.solve();
+    x.resize(a.size());
+    for (const auto& body : system.model().bodies) {
+      const auto M = body.mass_matrix();
+      if (!(M.rows() == 3 ? solve_body<3>(M, body.v, a, x) : solve_body<6>(M, body.v, a, x))) return false;
+    }
+    return true;
+  }
+
+ private:
+  template <int n, class Block>
+  static bool solve_body(const Block& M, Eigen::Index v, const Velocity<S>& a, Velocity<S>& x) {
+    DenseLu<T, n> lu;
+    if (!lu.factorize(M)) return false;
+    x.template segment<n>(v) = lu.solve(a.template segment<n>(v));
+    return true;
   }
 };
 

@@ -13,7 +13,8 @@
 #include "integrators/step_equation.h"
 #include "integrators/step_matrix.h"
 
-// The Newton kernel that solves the step equation of every method.
+// The Newton kernel that solves the step equation of every method: StepEquation, or another with the same unknowns and functions
+// (MomentumEquation).
 //
 // Simplified Newton iteration: one factorization serves iterations and steps until a fresh one is cheaper.
 // The residual is evaluated in the scalar T of the run, matrix and correction in LinearScalar<T>, double (iterative
@@ -34,12 +35,12 @@
 
 namespace liebench {
 
-template <MechanicalSystem S, Form form, class Audit>
+template <MechanicalSystem S, Form form, class Audit, class StepEquationOfMethod = StepEquation<S, form>>
 class NewtonKernel {
  public:
   using T = typename S::Scalar;
   using Linear = LinearScalar<T>;
-  using Equation = StepEquation<S, form>;
+  using Equation = StepEquationOfMethod;
   using Unknowns = typename Equation::Unknowns;
   using Point = typename Equation::Point;
   static constexpr int m = Equation::m;

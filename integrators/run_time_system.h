@@ -26,7 +26,8 @@ template <class T>
 class AnyStepMatrix {
  public:
   using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
-  using Derivatives = std::variant<ClosureDerivatives<T>, ClosureDerivatives<BlockDiagonal<T>>>;
+  using Derivatives =
+      std::variant<ClosureDerivatives<T>, ClosureDerivatives<BlockDiagonal<T>>, ClosureDerivatives<T, true>>;
   struct Point {
     T t, h;
     Vector q_n, step, q, velocity, scaled_acceleration, scaled_lambda;
@@ -80,6 +81,9 @@ class AnySystem {
   virtual BlockDiagonal<T> tangent_inverse(const Vector& v) const = 0;
   virtual Vector tangent_times(const Vector& v, const Vector& w) const = 0;
   virtual Vector tangent_inverse_times(const Vector& v, const Vector& w) const = 0;
+  virtual Vector coadjoint(const Vector& v, const Vector& w) const = 0;
+  virtual Vector tangent_inverse_transposed_change(const Vector& v, const Vector& w) const = 0;
+  virtual Vector adjoint_transposed_change(const Vector& v, const Vector& w) const = 0;
   virtual T rotation_angle(const Vector& v) const = 0;
 
   virtual Vector momentum(const Vector& q, const Vector& w) const = 0;
@@ -140,6 +144,13 @@ class RunTimeGroup {
   Tangent tangent_times(const Tangent& v, const Tangent& w) const { return system_->tangent_times(v, w); }
   Tangent tangent_inverse_times(const Tangent& v, const Tangent& w) const {
     return system_->tangent_inverse_times(v, w);
+  }
+  Tangent coadjoint(const Tangent& v, const Tangent& w) const { return system_->coadjoint(v, w); }
+  Tangent tangent_inverse_transposed_change(const Tangent& v, const Tangent& w) const {
+    return system_->tangent_inverse_transposed_change(v, w);
+  }
+  Tangent adjoint_transposed_change(const Tangent& v, const Tangent& w) const {
+    return system_->adjoint_transposed_change(v, w);
   }
   Scalar rotation_angle(const Tangent& v) const { return system_->rotation_angle(v); }
   static const Element& stacked(const Element& q) { return q; }

@@ -27,6 +27,8 @@ namespace liebench {
 //   [ B T              0       0        0       ]
 //   [ h Z T            0       0        B dv/dd ]
 //   [ -I               0      -B_n^T    I       ]
+//
+// With explicit forces (affine_closure.h) K is no part of it, and B^T that at q_n.
 template <BlockSystem S, Form form>
 class SparseStepMatrix {
  public:
@@ -75,8 +77,12 @@ class SparseStepMatrix {
     }
     Sink<Derivatives> sink{*this, bodies, tangents, derivatives, h, change};
     system.linearize(t, q, v, lambda, sink);
+    if constexpr (Sink<Derivatives>::explicit_forces) {
+      GradientSink old{*this, bodies, 0, m_, T(1.0)};
+      system.gradient(q_n, old);
+    }
     if (own_change) {
-      GradientSink old{*this, bodies, change};
+      GradientSink old{*this, bodies, change, m_ + l_, T(-1.0)};
       system.gradient(q_n, old);
       for (Eigen::Index i = 0; i < m_; ++i) {
         matrix_.add(change + i, i, T(-1.0));
@@ -139,6 +145,7 @@ class SparseStepMatrix {
   template <class Derivatives>
   struct Sink {
     static constexpr bool wants_rate_gradient = stabilized;
+    static constexpr bool explicit_forces = std::is_same_v<Derivatives, ClosureDerivatives<T, true>>;
     SparseStepMatrix& to;
     const Bodies& bodies;
     const BlockDiagonal<T>& tangents;
@@ -158,12 +165,15 @@ class SparseStepMatrix {
     }
     template <class Block>
     void stiffness(int i, int j, const Block& K) {
-      to.add(bodies[std::size_t(i)].v, bodies[std::size_t(j)].v, Block((h * h) * times_tangent(K, j)));
+      if constexpr (!explicit_forces)
+        to.add(bodies[std::size_t(i)].v, bodies[std::size_t(j)].v, Block((h * h) * times_tangent(K, j)));
     }
     void turning_stiffness(int i, const Matrix3& K) {
-      const Eigen::Index v = bodies[std::size_t(i)].v + 3;
-      const Matrix3 tangent = tangents.blocks()[std::size_t(i)].template bottomRightCorner<3, 3>();
-      to.add(v, v, Matrix3((h * h) * (K * tangent)));
+      if constexpr (!explicit_forces) {
+        const Eigen::Index v = bodies[std::size_t(i)].v + 3;
+        const Matrix3 tangent = tangents.blocks()[std::size_t(i)].template bottomRightCorner<3, 3>();
+        to.add(v, v, Matrix3((h * h) * (K * tangent)));
+      }
     }
     void turning_damping(int i, const Matrix3& C) {
       const Eigen::Index v = bodies[std::size_t(i)].v;
@@ -183,7 +193,7 @@ class SparseStepMatrix {
     template <class Block>
     void gradient(Eigen::Index row, int j, const Block& B) {
       const Eigen::Index v = bodies[std::size_t(j)].v, m = to.m_;
-      to.add(v, m + row, B.transpose());
+      if constexpr (!explicit_forces) to.add(v, m + row, B.transpose());
       to.add(m + row, v, times_tangent(B, j));
       if constexpr (stabilized) to.add(m + to.l_ + row, change + v, times(B, derivatives.velocity, j));
     }
@@ -192,13 +202,15 @@ class SparseStepMatrix {
       to.add(to.m_ + to.l_ + row, bodies[std::size_t(j)].v, (h * times_tangent(Z, j)).eval());
     }
   };
+  // factor B^T at one place of the matrix.
   struct GradientSink {
     SparseStepMatrix& to;
     const Bodies& bodies;
-    Eigen::Index change;
+    Eigen::Index rows, columns;
+    T factor;
     template <class Block>
     void gradient(Eigen::Index row, int j, const Block& B) {
-      to.add(change + bodies[std::size_t(j)].v, to.m_ + to.l_ + row, -B.transpose());
+      to.add(rows + bodies[std::size_t(j)].v, columns + row, (factor * B.transpose()).eval());
     }
   };
 

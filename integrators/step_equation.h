@@ -118,25 +118,34 @@ class StepEquation {
     }
   }
 
-  // The Newton matrix at the point, with the derivatives of the closure there.
-  template <class Matrix, class Derivative>
+  // The Newton matrix at the point, with the derivatives of the closure there. With explicit forces K is no part of it, and B^T that
+  // at q_n.
+  template <class Matrix, class Derivative, bool explicit_forces>
   static void jacobian(const S& system, const T& t, const T& h, const Configuration<S>& q_n, const Point& p,
-                       const Unknowns& z, const ClosureDerivatives<Derivative>& closure,
+                       const Unknowns& z, const ClosureDerivatives<Derivative, explicit_forces>& closure,
                        Matrix& J) requires DenseSystem<S> {
+    static_assert(!(explicit_forces && stabilized));
     const Velocity<S>& v = p.values.velocity;
-    // A constant mass matrix has no part in K.
-    Velocity<S> acceleration = Velocity<S>::Constant(T(0.0));
-    if constexpr (!S::constant_mass) acceleration = p.values.scaled_acceleration / h;
-    Multipliers<S> lambda;
-    if constexpr (l != 0) lambda = z.template segment<l>(m) / h;
-    const VelocityMatrix<S> K = system.stiffness(t, p.q, v, acceleration, lambda);
     const VelocityMatrix<S> inertial = system.mass_matrix(p.q) * closure.scaled_acceleration +
                                        (h * system.damping(t, p.q, v)) * closure.velocity;
     if constexpr (n > m) J.setConstant(T(0.0));
-    J.template topLeftCorner<m, m>() = inertial + (h * h) * S::Group::times_tangent(K, p.step);
+    if constexpr (explicit_forces) {
+      J.template topLeftCorner<m, m>() = inertial;
+    } else {
+      // A constant mass matrix has no part in K.
+      Velocity<S> acceleration = Velocity<S>::Constant(T(0.0));
+      if constexpr (!S::constant_mass) acceleration = p.values.scaled_acceleration / h;
+      Multipliers<S> lambda;
+      if constexpr (l != 0) lambda = z.template segment<l>(m) / h;
+      const VelocityMatrix<S> K = system.stiffness(t, p.q, v, acceleration, lambda);
+      J.template topLeftCorner<m, m>() = inertial + (h * h) * S::Group::times_tangent(K, p.step);
+    }
     if constexpr (l != 0) {
       const ConstraintGradient<S> B = system.constraint_gradient(p.q);
-      J.template block<m, l>(0, m) = B.transpose();
+      if constexpr (explicit_forces)
+        J.template block<m, l>(0, m) = system.constraint_gradient(q_n).transpose();
+      else
+        J.template block<m, l>(0, m) = B.transpose();
       J.template block<l, m>(m, 0) = S::Group::times_tangent(B, p.step);
       if constexpr (stabilized) {
         const ConstraintGradient<S> Z = system.constraint_gradient_derivative(p.q, v);

@@ -107,6 +107,18 @@ class SceneGroup {
     });
     return result;
   }
+  Tangent coadjoint(const Tangent& v, const Tangent& w) const {
+    return pairwise(v, w, []<class G>(G, const auto& a, const auto& b) { return G::coadjoint(a, b); });
+  }
+  Tangent tangent_inverse_transposed_change(const Tangent& v, const Tangent& w) const {
+    return pairwise(v, w, []<class G>(G, const auto& a, const auto& b) {
+      return G::tangent_inverse_transposed_change(a, b);
+    });
+  }
+  Tangent adjoint_transposed_change(const Tangent& v, const Tangent& w) const {
+    return pairwise(
+        v, w, []<class G>(G, const auto& a, const auto& b) { return G::adjoint_transposed_change(a, b); });
+  }
   TangentMatrix ad(const Tangent& v) const {
     return blocks([&]<class G>(G, const Body<T>& b) { return G::ad(part<G>(v, b)); });
   }
@@ -148,6 +160,17 @@ class SceneGroup {
   void each(const Visitor& visit) const {
     for (const Body<T>& body : *bodies_)
       visit_group<T>(body.kind, [&]<class G>(G group) { visit(group, body); });
+  }
+  // operation(G, v, w) of each body.
+  template <class Operation>
+  Tangent pairwise(const Tangent& v, const Tangent& w, const Operation& operation) const {
+    return inlined<T>([&]() -> Tangent {
+      Tangent result(size());
+      each([&]<class G>(G group, const Body<T>& b) {
+        part<G>(result, b) = operation(group, part<G>(v, b), part<G>(w, b));
+      });
+      return result;
+    });
   }
   template <class Maker>
   TangentMatrix blocks(const Maker& make) const {

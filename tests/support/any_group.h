@@ -41,6 +41,9 @@ class AnyGroup {
   virtual Matrix tangent_inverse(const Vector& v) const = 0;
   virtual Vector tangent_times(const Vector& v, const Vector& w) const = 0;
   virtual Vector tangent_inverse_times(const Vector& v, const Vector& w) const = 0;
+  virtual Vector coadjoint(const Vector& v, const Vector& w) const = 0;
+  virtual Vector tangent_inverse_transposed_change(const Vector& v, const Vector& w) const = 0;
+  virtual Vector adjoint_transposed_change(const Vector& v, const Vector& w) const = 0;
   // For A of four rows.
   virtual Matrix times_tangent(const Matrix& A, const Vector& v) const = 0;
   virtual Vector represented(const Vector& q) const = 0;
@@ -107,6 +110,13 @@ class HeldGroup final : public AnyGroup<typename G::Scalar> {
   Vector tangent_times(const Vector& v, const Vector& w) const override { return G::tangent_times(v, w); }
   Vector tangent_inverse_times(const Vector& v, const Vector& w) const override {
     return G::tangent_inverse_times(v, w);
+  }
+  Vector coadjoint(const Vector& v, const Vector& w) const override { return G::coadjoint(v, w); }
+  Vector tangent_inverse_transposed_change(const Vector& v, const Vector& w) const override {
+    return G::tangent_inverse_transposed_change(v, w);
+  }
+  Vector adjoint_transposed_change(const Vector& v, const Vector& w) const override {
+    return G::adjoint_transposed_change(v, w);
   }
   Matrix times_tangent(const Matrix& A, const Vector& v) const override {
     return G::times_tangent(Eigen::Matrix<T, 4, G::dimension>(A), v);

@@ -140,6 +140,35 @@ std::vector<Property<T>> tangent_properties() {
                        << angle;
            }},
 
+          {"OperatorsOfMomentaAreTransposedMatrices",
+           [](const GroupSamples<T>& S) {
+             const AnyGroup<T>& G = S.group();
+             const auto others = S.tangents(T(1.5));
+             for (const double angle : S.angles())
+               for (const auto& v : S.tangents(T(angle))) {
+                 const auto ad = G.ad(v), inverse = G.tangent_inverse(v);
+                 // Ad(exp(v~)) = exp(ad(v)) = I + ad(v) T(-v)
+                 const auto beyond_unit = (ad * G.tangent(-v)).eval();
+                 const double tolerance = S.few * S.eps() * (1 + S.length(v)) * (1 + angle);
+                 for (const auto& w : others) {
+                   const double size = tolerance * S.length(w);
+                   EXPECT_LE(S.length(G.coadjoint(v, w) - ad.transpose() * w), size) << angle;
+                   EXPECT_LE(
+                       S.length(G.tangent_inverse_transposed_change(v, w) - (inverse.transpose() * w - w)),
+                       size)
+                       << angle;
+                   EXPECT_LE(S.length(G.adjoint_transposed_change(v, w) - beyond_unit.transpose() * w), size)
+                       << angle;
+                   // A change is known to its own round-off.
+                   if (angle < 1e-3)
+                     EXPECT_LE(S.length(G.tangent_inverse_transposed_change(v, w) +
+                                        G.tangent_inverse_transposed_change(-v, w)),
+                               S.length(v) * S.length(v) * S.length(w))
+                         << angle;
+                 }
+               }
+           }},
+
           {"DerivativesAtZeroAreFiniteAndRight",
            [](const GroupSamples<T>& S) {
              const AnyGroup<double>& D = S.group().doubles();
