@@ -4,6 +4,7 @@
 #include "integrators/commutator_free.h"
 #include "integrators/crouch_grossman.h"
 #include "integrators/faltinsen_bdf.h"
+#include "integrators/gauss.h"
 #include "integrators/generalized_alpha.h"
 #include "integrators/rkmk.h"
 
@@ -14,6 +15,7 @@ struct IntegratorList {};
 
 // Every integrator of the program. A method that is not in this list is nowhere; one that is in it is in
 // every command.
-using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, Rkmk, CommutatorFree, CrouchGrossman>;
+using Integrators =
+    IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, Rkmk, CommutatorFree, CrouchGrossman, Gauss>;
 
 }  // namespace liebench
