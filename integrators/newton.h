@@ -34,12 +34,16 @@
 
 namespace liebench {
 
-template <MechanicalSystem S, Form form, class Audit>
+//
+// The equation and its matrix are those of a step of one increment, or those of a method that has others (integrators/radau_equation.h).
+
+template <MechanicalSystem S, Form form, class Audit, class StepEquationType = StepEquation<S, form>,
+          class StepMatrix = typename StepMatrixOf<S, form>::type>
 class NewtonKernel {
  public:
   using T = typename S::Scalar;
   using Linear = LinearScalar<T>;
-  using Equation = StepEquation<S, form>;
+  using Equation = StepEquationType;
   using Unknowns = typename Equation::Unknowns;
   using Point = typename Equation::Point;
   static constexpr int m = Equation::m;
@@ -220,7 +224,6 @@ class NewtonKernel {
   // Of a residual: sums of some dozen products, and what they are made of.
   static constexpr double rounding = 256.0;
 
-  using StepMatrix = typename StepMatrixOf<S, form>::type;
   using Correction = Eigen::Matrix<Linear, n, 1, 0, Equation::most, 1>;
 
   // r itself where T is the scalar of the linear algebra.
