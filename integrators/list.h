@@ -6,6 +6,7 @@
 #include "integrators/faltinsen_bdf.h"
 #include "integrators/gauss.h"
 #include "integrators/generalized_alpha.h"
+#include "integrators/radau.h"
 #include "integrators/rkmk.h"
 
 namespace liebench {
@@ -15,7 +16,7 @@ struct IntegratorList {};
 
 // Every integrator of the program. A method that is not in this list is nowhere; one that is in it is in
 // every command.
-using Integrators =
-    IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, Rkmk, CommutatorFree, CrouchGrossman, Gauss>;
+using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, Rkmk, CommutatorFree,
+                                   CrouchGrossman, Gauss, Radau>;
 
 }  // namespace liebench
