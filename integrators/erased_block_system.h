@@ -8,7 +8,9 @@
 
 #include "groups/audited_group.h"
 #include "integrators/mass_solver.h"
+#include "integrators/radau_matrix.h"
 #include "integrators/run_time_system.h"
+#include "integrators/sparse_radau_matrix.h"
 #include "integrators/sparse_stage_solver.h"
 #include "integrators/sparse_step_matrix.h"
 #include "integrators/stage_solver.h"
@@ -16,8 +18,8 @@
 
 namespace liebench {
 
-// The Newton matrix of a system of many bodies behind the interface of all.
-template <BlockSystem S, Form form>
+// A Newton matrix of a system of many bodies behind the interface of all.
+template <BlockSystem S, class Matrix>
 class ErasedBlockMatrix final : public AnyStepMatrix<typename S::Scalar> {
   using T = typename S::Scalar;
   using Base = AnyStepMatrix<T>;
@@ -29,14 +31,7 @@ class ErasedBlockMatrix final : public AnyStepMatrix<typename S::Scalar> {
 
   explicit ErasedBlockMatrix(const S& system) : system_(system), matrix_(system) {}
   Outcome factorize(const Point& p, const Derivatives& derivatives) override {
-    ++SystemCalls::counts().stiffnesses;
-    GroupCalls::counts().tangent += system_.model().bodies.size();
-    const Multipliers<S> lambda = p.scaled_lambda / p.h;
-    return std::visit(
-        [&](const auto& d) {
-          return matrix_.factorize_at(system_, p.t, p.h, p.q_n, p.step, p.q, p.velocity, lambda, d);
-        },
-        derivatives);
+    return factorize_at(matrix_, p, derivatives);
   }
   Vector solve(const Vector& r) const override { return matrix_.solve(r); }
   T mass_scale() const override { return matrix_.mass_scale(); }
@@ -45,8 +40,29 @@ class ErasedBlockMatrix final : public AnyStepMatrix<typename S::Scalar> {
   std::unique_ptr<Base> clone() const override { return std::make_unique<ErasedBlockMatrix>(*this); }
 
  private:
+  template <Form form>
+  Outcome factorize_at(SparseStepMatrix<S, form>& matrix, const Point& p, const Derivatives& derivatives) {
+    count(1);
+    const Multipliers<S> lambda = p.scaled_lambda / p.h;
+    return std::visit(
+        [&](const auto& d) {
+          return matrix.factorize_at(system_, p.t, p.h, p.q_n, p.step, p.q, p.velocity, lambda, d);
+        },
+        derivatives);
+  }
+  template <Form form>
+  Outcome factorize_at(SparseRadauMatrix<S, form>& matrix, const Point& p, const Derivatives&) {
+    const RadauStages<S> stages = radau_stages<S>(p, [](const auto& q) { return q; });
+    count(stages.size());
+    return matrix.factorize_at(system_, p.h, stages);
+  }
+  void count(std::uint64_t points) const {
+    SystemCalls::counts().stiffnesses += points;
+    GroupCalls::counts().tangent += points * system_.model().bodies.size();
+  }
+
   S system_;
-  SparseStepMatrix<S, form> matrix_;
+  Matrix matrix_;
 };
 
 // A system of many bodies as a RunTimeSystem; it counts its evaluations and, body by body, what AuditedGroup counts: here and not in
@@ -173,7 +189,15 @@ class ErasedBlockSystem final : public AnySystem<typename S::Scalar> {
       return nullptr;  // asked of linear() only
     else
       return with_form<S>(form, [&]<Form f>(FormConstant<f>) -> std::unique_ptr<AnyStepMatrix<T>> {
-        return std::make_unique<ErasedBlockMatrix<S, f>>(system_);
+        return std::make_unique<ErasedBlockMatrix<S, SparseStepMatrix<S, f>>>(system_);
+      });
+  }
+  std::unique_ptr<AnyStepMatrix<T>> radau_matrix(Form form) const override {
+    if constexpr (!std::is_same_v<T, Linear>)
+      return nullptr;  // asked of linear() only
+    else
+      return with_form<S>(form, [&]<Form f>(FormConstant<f>) -> std::unique_ptr<AnyStepMatrix<T>> {
+        return std::make_unique<ErasedBlockMatrix<S, SparseRadauMatrix<S, f>>>(system_);
       });
   }
 

@@ -9,19 +9,18 @@
 
 #include "integrators/consistent_projection.h"
 #include "integrators/mass_solver.h"
+#include "integrators/radau_matrix.h"
 #include "integrators/run_time_system.h"
 #include "integrators/stage_solver.h"
 #include "integrators/step_matrix.h"
 
 namespace liebench {
 
-// The Newton matrix of a system of fixed size behind the interface of all.
-template <DenseSystem S, Form form>
+// A Newton matrix of a system of fixed size behind the interface of all.
+template <DenseSystem S, class Matrix>
 class ErasedStepMatrix final : public AnyStepMatrix<typename S::Scalar> {
   using T = typename S::Scalar;
   using Base = AnyStepMatrix<T>;
-  using Matrix = DenseStepMatrix<S, form>;
-  using Equation = typename Matrix::Equation;
 
  public:
   using typename Base::Derivatives;
@@ -30,23 +29,7 @@ class ErasedStepMatrix final : public AnyStepMatrix<typename S::Scalar> {
 
   explicit ErasedStepMatrix(const S& system) : system_(system), matrix_(system) {}
   Outcome factorize(const Point& p, const Derivatives& derivatives) override {
-    typename Equation::Point point;
-    point.step = p.step;
-    point.q = S::Group::unstacked(p.q);
-    point.values.velocity = p.velocity;
-    point.values.scaled_acceleration = p.scaled_acceleration;
-    typename Equation::Unknowns z = Equation::Unknowns::Constant(T(0.0));
-    Equation::scaled_lambda(z, system_) = p.scaled_lambda;
-    const auto q_n = S::Group::unstacked(p.q_n);
-    const auto with = [&](const auto& d) {
-      return matrix_.factorize_at(system_, p.t, p.h, q_n, d, point, z);
-    };
-    if (const auto* scalar = std::get_if<ClosureDerivatives<T>>(&derivatives)) return with(*scalar);
-    if constexpr (form == Form::index3)
-      if (const auto* scalar = std::get_if<ClosureDerivatives<T, true>>(&derivatives)) return with(*scalar);
-    const auto& blocks = std::get<ClosureDerivatives<BlockDiagonal<T>>>(derivatives);
-    return with(ClosureDerivatives<VelocityMatrix<S>>{blocks.velocity.blocks().front(),
-                                                      blocks.scaled_acceleration.blocks().front()});
+    return factorize_erased(matrix_, system_, p, derivatives);
   }
   Vector solve(const Vector& r) const override { return matrix_.solve(r); }
   T mass_scale() const override { return matrix_.mass_scale(); }
@@ -58,6 +41,39 @@ class ErasedStepMatrix final : public AnyStepMatrix<typename S::Scalar> {
   S system_;
   Matrix matrix_;
 };
+
+template <DenseSystem S, Form form>
+Outcome factorize_erased(DenseStepMatrix<S, form>& matrix, const S& system,
+                         const typename AnyStepMatrix<typename S::Scalar>::Point& p,
+                         const typename AnyStepMatrix<typename S::Scalar>::Derivatives& derivatives) {
+  using T = typename S::Scalar;
+  using Equation = typename DenseStepMatrix<S, form>::Equation;
+  typename Equation::Point point;
+  point.step = p.step;
+  point.q = S::Group::unstacked(p.q);
+  point.values.velocity = p.velocity;
+  point.values.scaled_acceleration = p.scaled_acceleration;
+  typename Equation::Unknowns z = Equation::Unknowns::Constant(T(0.0));
+  Equation::scaled_lambda(z, system) = p.scaled_lambda;
+  const auto q_n = S::Group::unstacked(p.q_n);
+  const auto with = [&](const auto& d) {
+    return matrix.factorize_at(system, p.t, p.h, q_n, d, point, z);
+  };
+  if (const auto* scalar = std::get_if<ClosureDerivatives<T>>(&derivatives)) return with(*scalar);
+  if constexpr (form == Form::index3)
+    if (const auto* scalar = std::get_if<ClosureDerivatives<T, true>>(&derivatives)) return with(*scalar);
+  const auto& blocks = std::get<ClosureDerivatives<BlockDiagonal<T>>>(derivatives);
+  return with(ClosureDerivatives<VelocityMatrix<S>>{blocks.velocity.blocks().front(),
+                                                    blocks.scaled_acceleration.blocks().front()});
+}
+
+template <DenseSystem S, Form form>
+Outcome factorize_erased(DenseRadauMatrix<S, form>& matrix, const S& system,
+                         const typename AnyStepMatrix<typename S::Scalar>::Point& p,
+                         const typename AnyStepMatrix<typename S::Scalar>::Derivatives&) {
+  return matrix.factorize_at(system, p.h,
+                             radau_stages<S>(p, [](const auto& q) { return S::Group::unstacked(q); }));
+}
 
 // A system of fixed size as a RunTimeSystem.
 template <DenseSystem S>
@@ -190,7 +206,15 @@ class ErasedSystem final : public AnySystem<typename S::Scalar> {
       return nullptr;  // asked of linear() only
     else
       return with_form<S>(form, [&]<Form f>(FormConstant<f>) -> std::unique_ptr<AnyStepMatrix<T>> {
-        return std::make_unique<ErasedStepMatrix<S, f>>(system_);
+        return std::make_unique<ErasedStepMatrix<S, DenseStepMatrix<S, f>>>(system_);
+      });
+  }
+  std::unique_ptr<AnyStepMatrix<T>> radau_matrix(Form form) const override {
+    if constexpr (!std::is_same_v<T, Linear>)
+      return nullptr;  // asked of linear() only
+    else
+      return with_form<S>(form, [&]<Form f>(FormConstant<f>) -> std::unique_ptr<AnyStepMatrix<T>> {
+        return std::make_unique<ErasedStepMatrix<S, DenseRadauMatrix<S, f>>>(system_);
       });
   }
 

@@ -6,11 +6,13 @@
 #include "integrators/crouch_grossman.h"
 #include "integrators/faltinsen_adams.h"
 #include "integrators/faltinsen_bdf.h"
+#include "integrators/gauss.h"
 #include "integrators/generalized_alpha.h"
 #include "integrators/half_explicit.h"
 #include "integrators/implicit_midpoint.h"
 #include "integrators/liemid.h"
 #include "integrators/newmark.h"
+#include "integrators/radau.h"
 #include "integrators/rattlie.h"
 #include "integrators/rkmk.h"
 #include "integrators/rkmk_variable.h"
@@ -24,7 +26,7 @@ struct IntegratorList {};
 // Every integrator of the program. A method that is not in this list is nowhere; one that is in it is in
 // every command.
 using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, CentredBdf, Rattlie, Shakelie,
-                                   HalfExplicit, ImplicitMidpoint, Newmark, Liemid, Rkmk, RkmkVariable,
-                                   CommutatorFree, CrouchGrossman, FaltinsenAdams>;
+                                   HalfExplicit, Radau, Gauss, ImplicitMidpoint, Newmark, Liemid, Rkmk,
+                                   RkmkVariable, CommutatorFree, CrouchGrossman, FaltinsenAdams>;
 
 }  // namespace liebench

@@ -13,8 +13,8 @@
 #include "integrators/step_equation.h"
 #include "integrators/step_matrix.h"
 
-// The Newton kernel that solves the step equation of every method: StepEquation, or another with the same unknowns and functions
-// (MomentumEquation).
+// The Newton kernel that solves the step equation of every method: StepEquation with its matrix, or another with the same functions
+// (MomentumEquation; integrators/radau_equation.h with a matrix of its own).
 //
 // Simplified Newton iteration: one factorization serves iterations and steps until a fresh one is cheaper.
 // The residual is evaluated in the scalar T of the run, matrix and correction in LinearScalar<T>, double (iterative
@@ -35,12 +35,13 @@
 
 namespace liebench {
 
-template <MechanicalSystem S, Form form, class Audit, class StepEquationOfMethod = StepEquation<S, form>>
+template <MechanicalSystem S, Form form, class Audit, class StepEquationType = StepEquation<S, form>,
+          class StepMatrix = typename StepMatrixOf<S, form>::type>
 class NewtonKernel {
  public:
   using T = typename S::Scalar;
   using Linear = LinearScalar<T>;
-  using Equation = StepEquationOfMethod;
+  using Equation = StepEquationType;
   using Unknowns = typename Equation::Unknowns;
   using Point = typename Equation::Point;
   static constexpr int m = Equation::m;
@@ -221,7 +222,6 @@ class NewtonKernel {
   // Of a residual: sums of some dozen products, and what they are made of.
   static constexpr double rounding = 256.0;
 
-  using StepMatrix = typename StepMatrixOf<S, form>::type;
   using Correction = Eigen::Matrix<Linear, n, 1, 0, Equation::most, 1>;
 
   // r itself where T is the scalar of the linear algebra.

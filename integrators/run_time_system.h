@@ -110,6 +110,8 @@ class AnySystem {
   // The system in the scalar of the linear algebra, and the Newton matrix of such a one.
   virtual const AnySystem<Linear>& linear() const = 0;
   virtual std::unique_ptr<AnyStepMatrix<T>> step_matrix(Form form) const = 0;
+  // That of the stages of Radau IIA; its point has all stages, one after the other, and it takes no derivatives.
+  virtual std::unique_ptr<AnyStepMatrix<T>> radau_matrix(Form form) const = 0;
 };
 
 // Its group; valid as long as the system.
@@ -211,50 +213,99 @@ class RunTimeSystem {
 
   template <Form form>
   class StepMatrix;
+  template <Form form>
+  class RadauMatrix;
 
  private:
+  class HeldMatrix;
   std::shared_ptr<const AnySystem<T>> system_;
 };
 
+// A Newton matrix that can be copied.
 template <class T>
-template <Form form>
-class RunTimeSystem<T>::StepMatrix {
+class RunTimeSystem<T>::HeldMatrix {
  public:
   using Linear = LinearScalar<T>;
   using Correction = Eigen::Matrix<Linear, Eigen::Dynamic, 1>;
 
-  explicit StepMatrix(const RunTimeSystem& system) : matrix_(system.system_->linear().step_matrix(form)) {}
-  StepMatrix(const StepMatrix& other) : matrix_(other.matrix_->clone()) {}
-  StepMatrix& operator=(const StepMatrix& other) {
+  HeldMatrix(const HeldMatrix& other) : matrix_(other.matrix_->clone()) {}
+  HeldMatrix& operator=(const HeldMatrix& other) {
     matrix_ = other.matrix_->clone();
     return *this;
   }
-  StepMatrix(StepMatrix&&) noexcept = default;
-  StepMatrix& operator=(StepMatrix&&) noexcept = default;
-  ~StepMatrix() = default;
+  HeldMatrix(HeldMatrix&&) noexcept = default;
+  HeldMatrix& operator=(HeldMatrix&&) noexcept = default;
+  ~HeldMatrix() = default;
 
-  template <class Closure, class Point, class Unknowns>
-  Outcome factorize(const RunTimeSystem& system, const T& t, const T& h, const Vector& q_n,
-                    const Closure& closure, const Point& point, const Unknowns& z) {
-    const auto linear = [](const auto& v) { return Correction(v.template cast<Linear>()); };
-    const auto m = system.group().size();
-    return matrix_->factorize({.t = to_linear(t),
-                               .h = to_linear(h),
-                               .q_n = linear(q_n),
-                               .step = linear(point.step),
-                               .q = linear(point.q),
-                               .velocity = linear(point.values.velocity),
-                               .scaled_acceleration = linear(point.values.scaled_acceleration),
-                               .scaled_lambda = linear(z.segment(m, system.multipliers()))},
-                              closure.linearization(point.change));
-  }
   Correction solve(const Correction& r) const { return matrix_->solve(r); }
   Linear mass_scale() const { return matrix_->mass_scale(); }
   double factorization_cost() const { return matrix_->factorization_cost(); }
   double most_noise() const { return matrix_->most_noise(); }
 
- private:
+ protected:
+  explicit HeldMatrix(std::unique_ptr<AnyStepMatrix<Linear>> matrix) : matrix_(std::move(matrix)) {}
+  template <class Derived>
+  static Correction linear(const Eigen::MatrixBase<Derived>& v) {
+    return v.template cast<Linear>();
+  }
+
   std::unique_ptr<AnyStepMatrix<Linear>> matrix_;
+};
+
+template <class T>
+template <Form form>
+class RunTimeSystem<T>::StepMatrix : public RunTimeSystem<T>::HeldMatrix {
+ public:
+  explicit StepMatrix(const RunTimeSystem& system) : HeldMatrix(system.system_->linear().step_matrix(form)) {}
+
+  template <class Closure, class Point, class Unknowns>
+  Outcome factorize(const RunTimeSystem& system, const T& t, const T& h, const Vector& q_n,
+                    const Closure& closure, const Point& point, const Unknowns& z) {
+    const auto m = system.group().size();
+    return this->matrix_->factorize({.t = to_linear(t),
+                                     .h = to_linear(h),
+                                     .q_n = this->linear(q_n),
+                                     .step = this->linear(point.step),
+                                     .q = this->linear(point.q),
+                                     .velocity = this->linear(point.values.velocity),
+                                     .scaled_acceleration = this->linear(point.values.scaled_acceleration),
+                                     .scaled_lambda = this->linear(z.segment(m, system.multipliers()))},
+                                    closure.linearization(point.change));
+  }
+};
+
+// The stages behind each other, at t_{n+1}.
+template <class T>
+template <Form form>
+class RunTimeSystem<T>::RadauMatrix : public RunTimeSystem<T>::HeldMatrix {
+ public:
+  explicit RadauMatrix(const RunTimeSystem& system)
+      : HeldMatrix(system.system_->linear().radau_matrix(form)) {}
+
+  template <class Start, class Point, class Unknowns>
+  Outcome factorize(const RunTimeSystem& system, const T& t, const T& h, const Vector& q_n, const Start&,
+                    const Point& point, const Unknowns& z) {
+    const auto& stages = point.stage;
+    const auto together = [&](auto part) {
+      const Eigen::Index size = (stages[0].*part).size();
+      Vector all(Eigen::Index(stages.size()) * size);
+      for (std::size_t i = 0; i < stages.size(); ++i)
+        all.segment(Eigen::Index(i) * size, size) = stages[i].*part;
+      return this->linear(all);
+    };
+    using Stage = std::remove_cvref_t<decltype(stages[0])>;
+    const Eigen::Index count = Eigen::Index(stages.size());
+    return this->matrix_->factorize({.t = to_linear(t),
+                                     .h = to_linear(h),
+                                     .q_n = this->linear(q_n),
+                                     .step = together(&Stage::angle),
+                                     .q = together(&Stage::q),
+                                     .velocity = together(&Stage::velocity),
+                                     .scaled_acceleration = together(&Stage::scaled_acceleration),
+                                     .scaled_lambda = this->linear(z.segment(count * system.group().size(),
+                                                                             count * system.multipliers()))},
+                                    {});
+  }
 };
 
 }  // namespace liebench

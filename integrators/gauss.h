@@ -1,0 +1,459 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "integrators/audit.h"
+#include "integrators/dense_inverse.h"
+#include "integrators/fits.h"
+#include "integrators/gauss_coefficients.h"
+#include "integrators/inlining.h"
+#include "integrators/mass_solver.h"
+#include "integrators/option.h"
+#include "integrators/outcome.h"
+#include "integrators/runge_kutta_munthe_kaas.h"
+#include "integrators/starting_values.h"
+#include "problems/system.h"
+
+namespace liebench {
+
+// Gauss collocation on the group, of order 2 s with s stages, in canonical coordinates about the middle of the step: with
+// m = q_n o exp(Y~), for q' = DL_q(e) v~ and v' = F(t, q, v) = -M^{-1} g,
+//
+//   Y = h/2 sum_j b_j K_j,  Theta_i = h sum_j (a_ij - b_j / 2) K_j,  Q_i = m o exp(Theta_i~),  K_i = T^{-1}(Theta_i) V_i
+//   V_i = v_n + h sum_j a_ij F_j,  F_i = F(t_n + c_i h, Q_i, V_i)
+//   q_{n+1} = q_n o exp(2 Y~),  v_{n+1} = v_n + h sum_j b_j F_j
+//
+// q_n and q_{n+1} are exp(-Y) and exp(Y) of these coordinates: the method is symmetric, which that in coordinates about q_n is for s = 1
+// only (both are the implicit midpoint rule then), and the angles are half as large, which T^{-1} converges by [Zanna, Engo &
+// Munthe-Kaas 2001, Adjoint and selfadjoint Lie-group methods, BIT 41].
+struct Gauss {
+  static constexpr std::string_view name = "gauss";
+  static constexpr std::string_view summary =
+      "Gauss collocation in canonical coordinates about the middle of the step: implicit, symmetric, order 2 "
+      "s";
+  static constexpr Fits fits = Fits::without_constraints;
+  static constexpr auto option_list = std::to_array<OptionInfo>({
+      {.name = "stages",
+       .kind = OptionKind::integer,
+       .fallback = 4,
+       .least = 1,
+       .most = double(GaussCoefficients<double>::most_stages),
+       .meaning = "number of stages s; the order is 2 s"},
+  });
+
+  static std::string title(const OptionValues& values) {
+    return "Gauss, s = " + std::to_string(values.integer("stages"));
+  }
+  static ConvergenceOrders orders(const OptionValues& values) {
+    return same_order(2 * values.integer("stages"));
+  }
+
+  struct Options {
+    int stages = 4;
+  };
+  static Options options(const OptionValues& values) { return {values.integer("stages")}; }
+
+  template <MechanicalSystem S, class Audit>
+  class Stepper;
+
+  template <MechanicalSystem S, class Audit, class Visitor>
+  static auto with_stepper(const Options& options, const S& system, Visitor&& visit) {
+    return visit(Stepper<S, Audit>(system, options));
+  }
+};
+
+// The stage equations are solved by an iteration that takes the configurations, the velocities and the kinematics in turn. With Q_i
+// kept, V and F are solved for by the simplified Newton iteration of the matrix I - h A (x) J, J = dF/dv at t_n; with V_i kept, K by
+// that of I + h A_centred (x) dT^{-1}, T^{-1}(Theta) V = V - 1/2 [V, Theta] - tau/12 [V, [V, Theta]] for Theta = tau v_n; then Q_i
+// follow, on which F depends by h^2 only. A fast rotation is nearly all in the two matrices: on the fast top, in steps of one radian,
+// errors fall by 1e-4 in each turn, by 1e-1 without them. The inverses serve as many steps as they are worth. A system of more
+// than one body has none: there it is the fixed-point iteration.
+//
+// Stopping rule, that of integrators/newton.h: changes of K_i and h F_i in units of round-off of the largest velocity; rate, the
+// contraction seen. The iteration ends
+//   - converged, when the change or the predicted next one is below 1/20;
+//   - converged at the round-off floor, when changes no longer shrink by a factor of 2 and are below 32 units;
+//   - newton_diverged, when above that floor, with matrices formed in this step, a change grows after one that did not shrink by a
+//     factor of 2; and after 100 turns.
+template <MechanicalSystem S, class Audit>
+class Gauss::Stepper {
+ public:
+  using System = S;
+  using T = typename S::Scalar;
+
+  Stepper(const S& system, const Options& options)
+      : system_(system),
+        coefficients_(options.stages),
+        q_(group_of(system).identity()),
+        velocity_(zero_velocity(system)),
+        rounding_(velocity_),
+        lambda_(zero_multipliers(system)),
+        turn_(velocity_) {
+    for (Stages* stages : {&K_, &F_, &V_, &Theta_, &last_F_}) stages->fill(velocity_);
+    Q_.fill(q_);
+    if (newton()) {
+      velocity_inverse_.resize(unknowns(), unknowns());
+      kinematic_inverse_.resize(unknowns(), unknowns());
+      residual_.resize(unknowns());
+      correction_.resize(unknowns());
+    }
+  }
+
+  int steps() const { return 1; }
+  int starting_points() const { return 1; }
+  const T& time() const { return t_; }
+  const Configuration<S>& configuration() const { return q_; }
+  const Velocity<S>& velocity() const { return velocity_; }
+  const Multipliers<S>& multipliers() const { return lambda_; }
+  const S& system() const { return system_; }
+  const Audit& audit() const { return audit_; }
+  Audit& audit() { return audit_; }
+
+  // From q_0, v_0 and v'_0.
+  StepResult start(const T& h, std::span<const SolutionPoint<S>> points) {
+    h_ = h;
+    t_ = points[0].t;
+    q_ = points[0].q;
+    velocity_ = points[0].v;
+    rounding_.setConstant(T(0.0));
+    mass_.prepare(system_, audit_);
+    for (std::size_t i = 0; i < stages(); ++i) {
+      last_F_[i] = points[0].acceleration;
+      for (std::size_t j = 0; j < stages(); ++j) {
+        step_a_[i][j] = h * coefficients_.a[i][j];
+        step_centred_[i][j] = h * coefficients_.centred[i][j];
+      }
+    }
+    first_ = true;
+    formed_ = false;
+    return {};
+  }
+
+  StepResult step() {
+    if constexpr (inlines_all<S>) {
+      return step_inlined();
+    } else {
+      return take_step();
+    }
+  }
+
+ private:
+  using Linear = LinearScalar<T>;
+  using Stages = std::array<Velocity<S>, std::size_t(GaussCoefficients<T>::most_stages)>;
+  using Weights = typename GaussCoefficients<T>::Matrix;
+  // Of the matrices, in velocities: one body.
+  static constexpr int most_velocities = 6;
+  static constexpr int m = S::Group::dimension;
+  static constexpr int most_unknowns = GaussCoefficients<T>::most_stages *
+                                       (m == run_time_size ? most_velocities : std::min(m, most_velocities));
+  using Inverse = Eigen::Matrix<Linear, Eigen::Dynamic, Eigen::Dynamic, 0, most_unknowns, most_unknowns>;
+  using Column = Eigen::Matrix<Linear, Eigen::Dynamic, 1, 0, most_unknowns, 1>;
+
+  static constexpr int max_iterations = 100;
+  static constexpr double unit = 0.05;
+  static constexpr double noise = 32.0;
+  static constexpr double slowest_rate = 0.5;
+  static constexpr double safety = 2.0;
+
+  std::size_t stages() const { return std::size_t(coefficients_.stages); }
+  std::size_t velocities() const { return std::size_t(velocity_size(system_)); }
+  Eigen::Index unknowns() const { return coefficients_.stages * velocity_size(system_); }
+  bool newton() const { return velocity_size(system_) <= most_velocities; }
+
+  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
+
+  StepResult take_step() {
+    if (Outcome turned = outcome_of_turn(system_, Velocity<S>(h_ * velocity_)); turned != Outcome::ok)
+      return {turned};
+    bool fresh = !formed_ || marginal_cost_exceeds_average();
+    if (fresh)
+      if (const Outcome formed = form(); formed != Outcome::ok) return {formed};
+    StepResult result = iterate();
+    if (result.outcome == Outcome::newton_diverged && newton() && !fresh) {
+      if (const Outcome formed = form(); formed != Outcome::ok) return {formed};
+      result = iterate();
+    }
+    if (result.outcome != Outcome::ok) {
+      formed_ = false;
+      return result;
+    }
+    const Velocity<S> step = T(2.0) * turn_;
+    if (const Outcome turned = outcome_of_turn(system_, step); turned != Outcome::ok) return {turned};
+    Velocity<S> change = coefficients_.b[0] * F_[0];
+    for (std::size_t j = 1; j < stages(); ++j) change += coefficients_.b[j] * F_[j];
+    if (!std::isfinite(to_double(T(change.squaredNorm())))) return {Outcome::non_finite};
+    const auto group = group_of(system_);
+    q_ = group.compose(q_, group.exp(step));
+    // Summed with what the sum rounded away before [Kahan 1965; Hairer, Lubich & Wanner 2006, VIII.5].
+    const Velocity<S> corrected = h_ * change + rounding_;
+    const Velocity<S> sum = velocity_ + corrected;
+    const Velocity<S> added = sum - velocity_;
+    rounding_ = corrected - added;
+    velocity_ = sum;
+    t_ = t_ + h_;
+    for (std::size_t i = 0; i < stages(); ++i) last_F_[i] = F_[i];
+    first_ = false;
+    return result;
+  }
+
+  // F_i as the collocation polynomial of the last step goes on, V_i, and K_i from V_i.
+  void predict() {
+    for (std::size_t i = 0; i < stages(); ++i) {
+      if (first_) {
+        F_[i] = last_F_[i];
+        continue;
+      }
+      const auto& weights = coefficients_.extrapolation[i];
+      F_[i] = weights[0] * last_F_[0];
+      for (std::size_t j = 1; j < stages(); ++j) F_[i] += weights[j] * last_F_[j];
+    }
+    put_velocities();
+    for (std::size_t i = 0; i < stages(); ++i) K_[i] = V_[i];
+    put_angles();
+  }
+
+  StepResult iterate() {
+    const auto group = group_of(system_);
+    predict();
+    correct_kinematics();
+    Linear previous(0.0);
+    bool stalled = false;
+    for (int iteration = 1;; ++iteration) {
+      const Configuration<S> middle = group.compose(q_, group.exp(turn_));
+      for (std::size_t i = 0; i < stages(); ++i) Q_[i] = group.compose(middle, group.exp(Theta_[i]));
+      Linear change(0.0);
+      if (!correct_velocities(change)) return {Outcome::singular_matrix};
+      change = change * abs_of(to_linear(h_));
+      // Twice: it takes little, and the first change is that of V_i.
+      correct_kinematics();
+      const Linear kinematic_change = correct_kinematics();
+      if (change < kinematic_change) change = kinematic_change;
+
+      if (!std::isfinite(to_double(change))) return {Outcome::non_finite};
+      const Linear size = in_units(change);
+      const Linear rate = iteration > 1 ? std::max(size, Linear(1.0)) / previous : rate_;
+      if (size <= Linear(unit) || rate * size <= Linear(unit)) {
+        // The step that the matrices were formed in says nothing of the next.
+        rate_ = steps_ == 0 ? Linear(1.0) : std::min(Linear(1.0), rate * Linear(safety));
+        finish(iteration);
+        return {};
+      }
+      if (iteration > 1 && rate > Linear(slowest_rate)) {
+        if (size <= Linear(noise)) {
+          finish(iteration);
+          return {};
+        }
+        if ((stalled && rate > Linear(1.0)) || iteration >= max_iterations)
+          return {Outcome::newton_diverged, to_double(change)};
+        stalled = true;
+      } else {
+        stalled = false;
+      }
+      previous = size;
+    }
+  }
+
+  // One simplified Newton step for F with Q_i kept, and V of it. `change` of F_i; false where M is singular.
+  bool correct_velocities(Linear& change) {
+    const std::size_t n = velocities();
+    Velocity<S> F;
+    for (std::size_t i = 0; i < stages(); ++i) {
+      if (!acceleration(T(t_ + coefficients_.c[i] * h_), Q_[i], V_[i], F)) return false;
+      const Velocity<S> residual = F - F_[i];
+      if (newton())
+        put(residual, i * n);
+      else
+        F_[i] += take(residual, change);
+    }
+    if (newton()) add_correction(velocity_inverse_, F_, change);
+    put_velocities();
+    return true;
+  }
+
+  // The same for K with V_i kept, and Theta_i and Y of it.
+  Linear correct_kinematics() {
+    const auto group = group_of(system_);
+    const std::size_t n = velocities();
+    Linear change(0.0);
+    const bool solves = newton() && has_commutators(system_);
+    for (std::size_t i = 0; i < stages(); ++i) {
+      const Velocity<S> residual = group.tangent_inverse_times(Theta_[i], V_[i]) - K_[i];
+      if (solves)
+        put(residual, i * n);
+      else
+        K_[i] += take(residual, change);
+    }
+    if (solves) add_correction(kinematic_inverse_, K_, change);
+    put_angles();
+    return change;
+  }
+
+  void put_velocities() {
+    for (std::size_t i = 0; i < stages(); ++i) {
+      V_[i] = velocity_;
+      for (std::size_t j = 0; j < stages(); ++j) V_[i] += step_a_[i][j] * F_[j];
+    }
+  }
+  void put_angles() {
+    turn_ = coefficients_.b[0] * K_[0];
+    for (std::size_t j = 1; j < stages(); ++j) turn_ += coefficients_.b[j] * K_[j];
+    turn_ *= h_ * T(0.5);
+    for (std::size_t i = 0; i < stages(); ++i) {
+      Theta_[i] = step_centred_[i][0] * K_[0];
+      for (std::size_t j = 1; j < stages(); ++j) Theta_[i] += step_centred_[i][j] * K_[j];
+    }
+  }
+
+  void put(const Velocity<S>& residual, std::size_t place) {
+    for (std::size_t d = 0; d < velocities(); ++d)
+      residual_.data()[place + d] = to_linear(residual(Eigen::Index(d)));
+  }
+  // x += inverse residual, column by column.
+  void add_correction(const Inverse& inverse, Stages& x, Linear& change) {
+    const std::size_t n = std::size_t(unknowns());
+    Linear* const to = correction_.data();
+    for (std::size_t i = 0; i < n; ++i) to[i] = Linear(0.0);
+    for (std::size_t j = 0; j < n; ++j) {
+      const Linear* const column = inverse.data() + j * n;
+      const Linear factor = residual_.data()[j];
+      for (std::size_t i = 0; i < n; ++i) to[i] += column[i] * factor;
+    }
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < stages(); ++i)
+      for (std::size_t d = 0; d < velocities(); ++d, ++next) {
+        x[i](Eigen::Index(d)) += T(to[next]);
+        take_size(abs_of(to[next]), change);
+      }
+  }
+  static const Velocity<S>& take(const Velocity<S>& residual, Linear& change) {
+    for (Eigen::Index d = 0; d < residual.size(); ++d) take_size(abs_of(to_linear(residual(d))), change);
+    return residual;
+  }
+  // The larger one; a NaN stays.
+  static void take_size(const Linear& size, Linear& largest) {
+    if (!(size <= largest)) largest = size;
+  }
+  static Linear abs_of(const Linear& x) { return x < Linear(0.0) ? Linear(-x) : x; }
+
+  bool acceleration(const T& t, const Configuration<S>& q, const Velocity<S>& v, Velocity<S>& F) {
+    const Velocity<S> force = -system_.force(t, q, v);
+    return mass_.solve(system_, q, force, F, audit_);
+  }
+
+  // In units of round-off of the largest velocity.
+  Linear in_units(const Linear& change) const {
+    Linear scale(0.0);
+    for (std::size_t i = 0; i < stages(); ++i) take(K_[i], scale);
+    const double eps = to_double(Eigen::NumTraits<T>::epsilon());
+    return change / (Linear(eps) * scale + Linear(std::numeric_limits<double>::min()));
+  }
+
+  // The two matrices at t_n.
+  [[gnu::noinline, gnu::cold]] Outcome form() {
+    formed_ = true;
+    rate_ = Linear(1.0);
+    sweeps_ = formation_cost();
+    steps_ = 0;
+    last_ = 0;
+    if (!newton()) return Outcome::ok;
+    // J column by column in central differences, which are exact for the inertial forces, quadratic in v: no system is asked for more than
+    // its force. As wide as the cube root of round-off, where the error of others is least.
+    Linear speed(0.0);
+    take(velocity_, speed);
+    const Linear width = Linear(std::cbrt(to_double(Eigen::NumTraits<Linear>::epsilon()))) *
+                         (speed + Linear(1.0) / abs_of(to_linear(h_)));
+    Velocity<S> forth, back;
+    const bool turns = has_commutators(system_);
+    const auto group = group_of(system_);
+    set_identity(velocity_inverse_);
+    if (turns) set_identity(kinematic_inverse_);
+    for (std::size_t e = 0; e < velocities(); ++e) {
+      Velocity<S> direction = zero_velocity(system_);
+      direction(Eigen::Index(e)) = T(width);
+      if (!acceleration(t_, q_, Velocity<S>(velocity_ + direction), forth) ||
+          !acceleration(t_, q_, Velocity<S>(velocity_ - direction), back))
+        return Outcome::singular_matrix;
+      const Velocity<S> J = (forth - back) / T(Linear(2.0) * width);
+      subtract_column(velocity_inverse_, step_a_, e, [&](std::size_t) -> const Velocity<S>& { return J; });
+      if (!turns) continue;
+      direction(Eigen::Index(e)) = T(1.0);
+      const Velocity<S> once = group.commutator(velocity_, direction);
+      const Velocity<S> twice = group.commutator(velocity_, once);
+      subtract_column(kinematic_inverse_, step_centred_, e, [&](std::size_t i) {
+        const T tau = (coefficients_.c[i] - T(0.5)) * h_;
+        return Velocity<S>(T(-0.5) * once - (tau / T(12.0)) * twice);
+      });
+    }
+    const auto inverted = [&](Inverse& inverse) {
+      if (!inverse.allFinite()) return Outcome::non_finite;
+      audit_.factorization(FactorizationCause::refresh);
+      return invert<std::size_t(most_unknowns)>(inverse.data(), std::size_t(unknowns()))
+                 ? Outcome::ok
+                 : Outcome::singular_matrix;
+    };
+    const Outcome outcome = inverted(velocity_inverse_);
+    return outcome == Outcome::ok && turns ? inverted(kinematic_inverse_) : outcome;
+  }
+  void set_identity(Inverse& matrix) const {
+    matrix.setConstant(Linear(0.0));
+    for (Eigen::Index i = 0; i < unknowns(); ++i) matrix(i, i) = Linear(1.0);
+  }
+  // weights (x) J, its columns of the direction e; J may differ from row to row of stages.
+  template <class Column>
+  void subtract_column(Inverse& matrix, const Weights& weights, std::size_t e, const Column& column) const {
+    const std::size_t n = velocities();
+    for (std::size_t i = 0; i < stages(); ++i) {
+      const Velocity<S> J = column(i);
+      for (std::size_t j = 0; j < stages(); ++j)
+        for (std::size_t d = 0; d < n; ++d)
+          matrix(Eigen::Index(i * n + d), Eigen::Index(j * n + e)) -=
+              to_linear(T(weights[i][j] * J(Eigen::Index(d))));
+    }
+  }
+
+  // Of form(), in turns of the iteration, measured for one body.
+  double formation_cost() const { return 0.5 * double(unknowns()); }
+  void finish(int iterations) {
+    sweeps_ += iterations;
+    ++steps_;
+    last_ = iterations;
+  }
+  // As in integrators/newton.h: kept while one more step with it costs less than those since it was formed did on average.
+  bool marginal_cost_exceeds_average() const { return newton() && steps_ > 0 && last_ * steps_ > sweeps_; }
+
+  S system_;
+  [[no_unique_address]] Audit audit_;
+  MassSolver<S> mass_;
+  GaussCoefficients<T> coefficients_;
+  Weights step_a_{}, step_centred_{};  // h a_ij, h (a_ij - b_j / 2)
+  T h_ = T(0.0);
+  T t_ = T(0.0);
+  Configuration<S> q_;
+  Velocity<S> velocity_;
+  Velocity<S> rounding_;   // what velocity_ lacks of the sum of all changes
+  Multipliers<S> lambda_;  // none
+  bool first_ = true;
+  Stages last_F_;  // F_i of the step before; v'_0 in the first
+  // Of the step:
+  Stages K_, F_, V_, Theta_;
+  Velocity<S> turn_;  // Y
+  std::array<Configuration<S>, std::size_t(GaussCoefficients<T>::most_stages)> Q_;
+  Inverse velocity_inverse_, kinematic_inverse_;
+  Column residual_, correction_;
+  bool formed_ = false;
+  Linear rate_ = Linear(1.0);
+  double sweeps_ = 0.0;
+  int steps_ = 0;  // since the matrices were formed
+  int last_ = 0;   // turns of the last one
+};
+
+}  // namespace liebench
