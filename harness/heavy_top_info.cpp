@@ -7,6 +7,7 @@
 
 #include "harness/errors.h"
 #include "harness/heavy_top_runs.h"
+#include "harness/outside/outside_methods.h"
 #include "harness/problems.h"
 #include "problems/heavy_top.h"
 
@@ -147,6 +148,8 @@ class HeavyTop final : public PreparedProblem {
   explicit HeavyTop(HeavyTopReference reference) : reference_(std::move(reference)) {}
 
   RunResult run(std::string_view formulation, Precision precision, const RunRequest& request) const override {
+    if (const OutsideMethod* outside = find_outside_method(request.integrator))
+      return outside->runs.run(request, reference_);
     const Formulation& entry = by_name(formulation);
     if (precision == Precision::extended) return entry.extended(request, reference_);
     RunResult result = entry.in_double(request, reference_);
@@ -156,6 +159,8 @@ class HeavyTop final : public PreparedProblem {
     return result;
   }
   std::unique_ptr<TimedRun> timed(std::string_view formulation, const RunRequest& request) const override {
+    if (const OutsideMethod* outside = find_outside_method(request.integrator))
+      return outside->runs.timed(request, reference_);
     return by_name(formulation).timed(request, reference_);
   }
   std::string reference_method() const override { return reference_.method(); }

@@ -1,27 +1,13 @@
 #pragma once
 
 #include "harness/heavy_top_runs.h"
+#include "harness/heavy_top_solution.h"
 #include "harness/instances/run_time_steppers.h"
 #include "harness/run_method.h"
 #include "problems/audited_system.h"
 #include "problems/heavy_top.h"
 
 namespace liebench {
-
-namespace detail {
-
-// The solution of the reference in the formulation System.
-template <template <class> class System>
-auto exact_solution(const HeavyTopReference& reference) {
-  return [&reference, system = System<Extended>(reference.parameters())](const Extended& t) {
-    const HeavyTopState s = reference.at(t);
-    return SolutionPoint<System<Extended>>{t, system.configuration(s.R), system.velocity(s.R, s.omega),
-                                           system.acceleration(s.R, s.omega, s.omega_dot),
-                                           system.multipliers(s.R, s.omega, s.omega_dot)};
-  };
-}
-
-}  // namespace detail
 
 template <template <class> class System, class T>
 RunResult run_heavy_top(const RunRequest& request, const HeavyTopReference& reference) {

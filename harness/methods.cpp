@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "harness/outside/outside_methods.h"
 #include "integrators/list.h"
 #include "integrators/step_control.h"
 
@@ -24,10 +25,22 @@ std::vector<MethodInfo> infos(IntegratorList<Methods...>) {
                      Methods::option_list, &Methods::title, &Methods::orders}...};
 }
 
+std::vector<MethodInfo> all_infos() {
+  std::vector<MethodInfo> list = infos(Integrators{});
+  for (const OutsideMethod& each : outside_methods())
+    list.push_back({each.name, each.summary, each.fits, true, each.options, each.title, each.orders, &each});
+  return list;
+}
+
+bool fits(const MethodInfo& method, bool constrained, std::string_view formulation) {
+  return fits(method.fits, constrained) &&
+         (method.outside == nullptr || method.outside->formulation == formulation);
+}
+
 }  // namespace
 
 const std::vector<MethodInfo>& methods() {
-  static const std::vector<MethodInfo> list = infos(Integrators{});
+  static const std::vector<MethodInfo> list = all_infos();
   return list;
 }
 
@@ -42,8 +55,10 @@ bool has_option(const MethodInfo& method, std::string_view option) {
                      [&](const OptionInfo& info) { return info.name == option; });
 }
 
-std::string_view fits_text(Fits fits) {
-  switch (fits) {
+std::string fits_text(const MethodInfo& method) {
+  if (method.outside != nullptr)
+    return fmt::format("the heavy top in the formulation \"{}\" alone", method.outside->formulation);
+  switch (method.fits) {
     case Fits::every_system:
       return "every problem";
     case Fits::without_constraints:
@@ -54,13 +69,20 @@ std::string_view fits_text(Fits fits) {
   return "problems with constraints";
 }
 
-std::string misfit(const MethodInfo& method, bool constrained) {
-  if (fits(method.fits, constrained)) return {};
+std::string misfit(const MethodInfo& method, bool constrained, std::string_view formulation) {
+  if (fits(method, constrained, formulation)) return {};
   std::vector<std::string> fitting;
   for (const MethodInfo& other : methods())
-    if (fits(other.fits, constrained)) fitting.emplace_back(other.name);
-  return fmt::format("{} integrates {}; this one has {}. What fits it: {}", method.name,
-                     fits_text(method.fits), constrained ? "constraints" : "none", quoted_list(fitting));
+    if (fits(other, constrained, formulation)) fitting.emplace_back(other.name);
+  const std::string_view difference = method.outside != nullptr ? "is another"
+                                      : constrained             ? "has constraints"
+                                                                : "has none";
+  return fmt::format("{} integrates {}; this one {}. What fits it: {}", method.name, fits_text(method),
+                     difference, quoted_list(fitting));
+}
+
+std::string_view obstacle_to(const MethodInfo& method) {
+  return method.outside != nullptr ? outside_obstacle() : "";
 }
 
 OptionValue option_value(const OptionInfo& info, const JsonView& view) {

@@ -9,10 +9,12 @@
 #include "integrators/fits.h"
 #include "integrators/option.h"
 
-// The integrators of integrators/list.h, seen from the harness: names and options, and options from and to
-// JSON.
+// The integrators of integrators/list.h and the solvers from outside (harness/outside/), seen from the harness: names and options,
+// and options from and to JSON.
 
 namespace liebench {
+
+struct OutsideMethod;
 
 struct MethodInfo {
   std::string_view name;
@@ -22,6 +24,7 @@ struct MethodInfo {
   std::span<const OptionInfo> options;
   std::string (*title)(const OptionValues&);  // "BLieDF2nd, k = 3"
   ConvergenceOrders (*orders)(const OptionValues&);
+  const OutsideMethod* outside = nullptr;  // of a solver from outside
 };
 
 const std::vector<MethodInfo>& methods();
@@ -30,10 +33,13 @@ const MethodInfo* find_method(std::string_view name);
 
 bool has_option(const MethodInfo& method, std::string_view option);
 
-// Why a method does not integrate a system with or without constraints, and which do; empty where it does.
-std::string misfit(const MethodInfo& method, bool constrained);
+// Why a method does not integrate a system with or without constraints in this formulation, and which do; empty where it does.
+std::string misfit(const MethodInfo& method, bool constrained, std::string_view formulation);
 // What it integrates: "problems without constraints".
-std::string_view fits_text(Fits fits);
+std::string fits_text(const MethodInfo& method);
+
+// Why it can't run in this program, whatever the problem: a sentence, empty where it can.
+std::string_view obstacle_to(const MethodInfo& method);
 
 // The checked value of one option. Throws InputError.
 OptionValue option_value(const OptionInfo& info, const JsonView& view);

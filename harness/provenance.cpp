@@ -8,6 +8,8 @@
 #include <ctime>
 #include <fstream>
 
+#include "harness/outside/outside_methods.h"
+
 namespace liebench {
 
 namespace {
@@ -38,6 +40,7 @@ Json provenance() {
   libraries["boost"] =
       fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100);
   libraries["fmt"] = fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
+  if (!sundials_version().empty()) libraries["sundials"] = sundials_version();
   j["date"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   return j;
 }

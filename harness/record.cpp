@@ -67,6 +67,20 @@ Json cost_to_json(const RunCost& c) {
   return j;
 }
 
+Json cost_to_json(const OutsideCounts& c) {
+  Json j;
+  j["residuals"] = c.residuals;
+  const auto add = [&](const char* key, const std::optional<std::uint64_t>& count) {
+    if (count) j[key] = *count;
+  };
+  add("jacobians", c.jacobians);
+  add("factorizations", c.factorizations);
+  add("solves", c.solves);
+  add("newton_iterations", c.newton_iterations);
+  j["rejected_steps"] = c.rejected_steps;
+  return j;
+}
+
 Json time_to_json(const RunTimes& times) {
   const double middle = median(times.per_step);
   const auto [least, most] = std::minmax_element(times.per_step.begin(), times.per_step.end());
@@ -140,8 +154,12 @@ Json make_record(const RunSpec& run, const RunResult& result, const PreparedProb
   if (result.agreement_time) j["agreement_time"] = run.t_0 + *result.agreement_time;
   if (result.drift) j["drift"] = drift(*result.drift);
   if (result.solver) j["solver"] = name(*result.solver);
-  j["cost"] = cost_to_json(result.cost);
-  if (run.method->chooses_steps) j["cost"]["rejected_steps"] = result.cost.kernel.rejections;
+  if (result.outside) {
+    j["cost"] = cost_to_json(*result.outside);
+  } else {
+    j["cost"] = cost_to_json(result.cost);
+    if (run.method->chooses_steps) j["cost"]["rejected_steps"] = result.cost.kernel.rejections;
+  }
   j["provenance"] = provenance;
   return j;
 }

@@ -71,6 +71,13 @@ struct RunCost {
   std::optional<Operations> operations;  // of runs in double
 };
 
+// In place of it, of a solver from outside (harness/outside/): that solver's own statistics. What it does not have is empty.
+struct OutsideCounts {
+  std::uint64_t residuals = 0;  // right-hand sides, or residuals of the implicit equations
+  std::optional<std::uint64_t> jacobians, factorizations, solves, newton_iterations;
+  std::uint64_t rejected_steps = 0;
+};
+
 // The times of the repetitions of a run in double, ns.
 struct RunTimes {
   std::vector<double> per_step;  // one a repetition
@@ -89,8 +96,9 @@ struct RunResult {
   std::optional<double> agreement_time;
   std::optional<LinearSolver> solver;  // of Newton's equations, where it depends on their number
   RunCost cost;
-  std::uint64_t steps = 0;        // that were taken, those of the start included
-  std::vector<double> end_state;  // q, v, lambda where the run ended, rounded to double
+  std::optional<OutsideCounts> outside;  // of a solver from outside: `cost` is empty then
+  std::uint64_t steps = 0;               // that were taken, those of the start included
+  std::vector<double> end_state;         // q, v, lambda where the run ended, rounded to double
 };
 
 // A run in double made ready to be timed: no counter, no comparison with the reference. Each call does all of its part.
@@ -103,6 +111,25 @@ class TimedRun {
 };
 
 namespace detail {
+
+// What the message of a failure says of its outcome.
+constexpr std::string_view explanation(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::ok:
+      return "";
+    case Outcome::newton_diverged:
+      return "Newton's increments do not shrink; the step size is too large here";
+    case Outcome::singular_matrix:
+      return "the matrix of the step equation has a zero pivot";
+    case Outcome::non_finite:
+      return "an infinity or a NaN in the state";
+    case Outcome::rotation_too_large:
+      return "an increment turns by pi or more; the step size is too large here";
+    case Outcome::step_limit:
+      return "more steps than allowed";
+  }
+  return "";
+}
 
 // The counts are those of the run only where both went through the same numbers: throws std::logic_error where they did not.
 void require_same_path(const RunResult& run, const RunResult& audit, std::string_view where,

@@ -184,14 +184,31 @@ void require_scopes(const std::vector<ProblemChoice>& problems, const std::vecto
     }
 }
 
-// Every method must integrate every problem of the study.
+// Every method must integrate every problem of the study, and be able to run at all.
 void require_fits(const std::vector<ProblemChoice>& problems, const std::vector<MethodChoice>& methods) {
-  for (const MethodChoice& choice : methods)
+  for (const MethodChoice& choice : methods) {
     for (const ProblemChoice& problem : problems)
-      if (const std::string reason = misfit(*choice.method, problem.formulation->constraints > 0);
+      if (const std::string reason =
+              misfit(*choice.method, problem.formulation->constraints > 0, problem.formulation->name);
           !reason.empty())
         throw InputError(choice.entry["name"].pointer(), fmt::format("{} in {}: {}", problem.problem->name,
                                                                      problem.formulation->name, reason));
+    if (const std::string_view reason = obstacle_to(*choice.method); !reason.empty())
+      throw InputError(choice.entry["name"].pointer(), fmt::format("{}: {}", choice.method->name, reason));
+  }
+}
+
+// Solvers from outside know double alone.
+void require_precision(const JsonView& extended, const std::vector<MethodChoice>& choices) {
+  for (const MethodChoice& choice : choices) {
+    if (choice.method->outside == nullptr) continue;
+    std::vector<std::string> fitting;
+    for (const MethodInfo& other : methods())
+      if (other.outside == nullptr) fitting.emplace_back(other.name);
+    throw InputError(extended.pointer(),
+                     fmt::format("{} runs in \"double\" alone. What runs in \"extended\": {}",
+                                 choice.method->name, quoted_list(fitting)));
+  }
 }
 
 double positive_step(const JsonView& view) {
@@ -355,10 +372,12 @@ Study read_study(const Json& json) {
   const auto sizes = root.has("step_sizes") ? read_step_sizes(root["step_sizes"]) : std::vector<StepSize>{};
   const Interval interval = read_interval(root);
   std::vector<Precision> precisions;
-  for (const JsonView& view : alternatives(root, "precision"))
+  for (const JsonView& view : alternatives(root, "precision")) {
     precisions.push_back(view.word({"double", "extended"}, "precision") == "extended"
                              ? Precision::extended
                              : Precision::double_precision);
+    if (precisions.back() == Precision::extended) require_precision(view, method_choices);
+  }
   if (precisions.empty()) precisions.push_back(Precision::double_precision);
 
   std::set<std::string> keys;

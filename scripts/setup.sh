@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that liebench needs and that are not there yet, through apt-get.
 #
-#   scripts/setup.sh [--tests] [--lint]
+#   scripts/setup.sh [--tests] [--lint] [--sundials]
 #
-#   --tests   also what all tests need: clang with its sanitizers, LaTeX
-#   --lint    also what .ci/run needs beyond the builds: clang-format, clang-tidy, shellcheck, codespell
-#   --help    this text
+#   --tests      also what all tests need: clang with its sanitizers, LaTeX
+#   --lint       also what .ci/run needs beyond the builds: clang-format, clang-tidy, shellcheck, codespell
+#   --sundials   also SUNDIALS, with whose solvers liebench compares where it is there
+#   --help       this text
 #
 # When nothing is missing it does nothing and needs neither network nor rights. Otherwise it runs apt-get as root
 # or by sudo; where it can't, it names the packages and the command, and exits with status 3.
@@ -29,8 +30,9 @@ while [ $# -gt 0 ]; do
   case $1 in
     --tests) packages+=("${test_packages[@]}") ;;
     --lint) packages+=("${lint_packages[@]}") ;;
+    --sundials) packages+=(libsundials-dev) ;;
     -h | --help) usage; exit 0 ;;
-    *) echo "setup.sh: unknown option '$1' (allowed: --tests, --lint, --help)" >&2; exit 2 ;;
+    *) echo "setup.sh: unknown option '$1' (allowed: --tests, --lint, --sundials, --help)" >&2; exit 2 ;;
   esac
   shift
 done

@@ -45,7 +45,9 @@ void list(const std::string& what) {
     for (const ProblemInfo& problem : problems()) fmt::print("{:<20} {}\n", problem.name, problem.summary);
     return;
   }
-  for (const MethodInfo& method : methods()) fmt::print("{:<20} {}\n", method.name, method.summary);
+  for (const MethodInfo& method : methods())
+    fmt::print("{:<20} {}{}\n", method.name, method.summary,
+               obstacle_to(method).empty() ? "" : "; not in this build");
 }
 
 std::string default_text(const OptionInfo& info) {
@@ -60,7 +62,9 @@ std::string default_text(const OptionInfo& info) {
 }
 
 void describe_method(const MethodInfo& method) {
-  fmt::print("{}: {}\n\nIntegrates {}.\n\n{}\n", method.name, method.summary, fits_text(method.fits),
+  const std::string_view obstacle = obstacle_to(method);
+  fmt::print("{}: {}\n\nIntegrates {}.{}\n\n{}\n", method.name, method.summary, fits_text(method),
+             obstacle.empty() ? "" : fmt::format("\nIt can't run: {}.", obstacle),
              method.options.empty() ? "No options." : "Options:");
   for (const OptionInfo& info : method.options)
     fmt::print("  {:<18} {}\n  {:<18} {}; default {}{}{}\n", info.name, info.meaning, "",

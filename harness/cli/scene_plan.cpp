@@ -26,7 +26,7 @@ MethodOptions method_options(const std::string& integrator, const std::vector<st
   if (method == nullptr)
     throw InputError("--integrator", fmt::format("\"{}\" is not an integrator; allowed: {}{}", integrator,
                                                  quoted_list(names), suggestion(integrator, names)));
-  if (const std::string reason = misfit(*method, constrained); !reason.empty())
+  if (const std::string reason = misfit(*method, constrained, "scene"); !reason.empty())
     throw InputError("--integrator", reason);
   if (method->chooses_steps)
     throw InputError("--integrator", fmt::format("{} chooses its steps, and here they are those of --h; "

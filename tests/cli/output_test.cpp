@@ -75,9 +75,12 @@ TEST_F(OutputTest, OfVersionIsOneLineWithTheCommit) {
 }
 
 TEST_F(OutputTest, OfListIsAsExpected) {
+  // What solvers from outside it was built with is the machine's.
+  const std::string integrators =
+      std::regex_replace(output({"list", "integrators"}), std::regex("; not in this build"), "");
   expect_golden("list.txt", "$ liebench list problems\n" + output({"list", "problems"}) +
-                                "$ liebench list integrators\n" + output({"list", "integrators"}) +
-                                "$ liebench list effects\n" + output({"list", "effects"}));
+                                "$ liebench list integrators\n" + integrators + "$ liebench list effects\n" +
+                                output({"list", "effects"}));
 }
 
 TEST_F(OutputTest, OfDescribeIsAsExpected) {

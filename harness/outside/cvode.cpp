@@ -1,0 +1,124 @@
+#include <cvode/cvode.h>
+#include <sundials/sundials_config.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include "harness/outside/stepping_solver.h"
+
+namespace liebench {
+
+std::string_view sundials_version() {
+  return SUNDIALS_VERSION;
+}
+
+namespace outside {
+
+namespace {
+
+constexpr FailureFlags flags{CV_CONV_FAILURE, CV_LSETUP_FAIL, CV_LSOLVE_FAIL, CV_RHSFUNC_FAIL,
+                             CV_UNREC_RHSFUNC_ERR};
+
+// Without acceleration.
+struct FixedPointSolver {
+  Owned<SUNNonlinearSolver> solver;
+
+  FixedPointSolver(const Owned<SUNContext>& context, const Owned<N_Vector>& v)
+      : solver(require(SUNNonlinSol_FixedPoint(v.get(), 0, context.get()), "SUNNonlinSol_FixedPoint")) {}
+};
+
+// CVODE with `Algebra` for the equations of its steps, which outlives its memory.
+template <class Algebra>
+class Cvode : public QuaternionSolver {
+ public:
+  void restart() {
+    back_to_start();
+    require(CVodeReInit(memory_.get(), 0.0, y_.get()), "CVodeReInit");
+    require(CVodeSetStopTime(memory_.get(), duration_), "CVodeSetStopTime");
+  }
+  StepEnd step() {
+    return step_by(flags,
+                   [&](double* t) { return CVode(memory_.get(), duration_, y_.get(), t, CV_ONE_STEP); });
+  }
+
+ protected:
+  Cvode(int family, const OptionValues& options, const HeavyTopParameters& parameters, double duration)
+      : QuaternionSolver(parameters, duration),
+        algebra_(context_, y_),
+        memory_(require(CVodeCreate(family, context_.get()), "CVodeCreate")) {
+    const double tolerance = options.real("tolerance");
+    require(CVodeInit(memory_.get(), derivative, 0.0, y_.get()), "CVodeInit");
+    require(CVodeSetErrHandlerFn(memory_.get(), LastError::handler, &error_), "CVodeSetErrHandlerFn");
+    require(CVodeSetUserData(memory_.get(), &equations_), "CVodeSetUserData");
+    require(CVodeSStolerances(memory_.get(), tolerance, tolerance), "CVodeSStolerances");
+    require(CVodeSetStopTime(memory_.get(), duration_), "CVodeSetStopTime");
+  }
+  ~Cvode() = default;
+
+  OutsideCounts counts_of_steps() const {
+    OutsideCounts counts;
+    counts.residuals = statistic(memory_, CVodeGetNumRhsEvals);
+    counts.rejected_steps =
+        statistic(memory_, CVodeGetNumErrTestFails) + statistic(memory_, CVodeGetNumStepSolveFails);
+    return counts;
+  }
+
+  Algebra algebra_;
+  OwnedMemory<CVodeFree> memory_;
+};
+
+// BDF with Newton's method. After every step the quaternion is normalised, and the estimate of its error loses the part along it
+// [Eich 1993]; CVODE has this for BDF alone.
+class CvodeBdf final : public Cvode<DenseSolver> {
+ public:
+  CvodeBdf(const OptionValues& options, const HeavyTopParameters& parameters, double duration)
+      : Cvode(CV_BDF, options, parameters, duration) {
+    require(CVodeSetLinearSolver(memory_.get(), algebra_.solver.get(), algebra_.matrix.get()),
+            "CVodeSetLinearSolver");
+    require(CVodeSetJacFn(memory_.get(), jacobian), "CVodeSetJacFn");
+    require(CVodeSetProjFn(memory_.get(), project), "CVodeSetProjFn");
+  }
+
+  OutsideCounts counts() const {
+    OutsideCounts counts = counts_of_steps();
+    counts.jacobians = statistic(memory_, CVodeGetNumJacEvals);
+    counts.factorizations = statistic(memory_, CVodeGetNumLinSolvSetups);
+    counts.newton_iterations = statistic(memory_, CVodeGetNumNonlinSolvIters);
+    counts.solves = counts.newton_iterations;
+    return counts;
+  }
+
+ private:
+  static int project(double, N_Vector y, N_Vector correction, double, N_Vector error, void*) {
+    const Vector4 p = numbers_of<size>(y).head<4>(), unit = p.normalized();
+    numbers_of<size>(correction) << unit - p, Vector3::Zero();
+    if (error != nullptr) {
+      auto along = numbers_of<size>(error).head<4>();
+      along -= along.dot(unit) * unit;
+    }
+    return computed(unit);
+  }
+};
+
+// Adams-Moulton formulas with fixed-point iteration, as CVODE's guide has it for equations that are not stiff. Nothing is
+// normalised but what is read: the length of the quaternion, which has no effect, stays within the error of the steps.
+class CvodeAdams final : public Cvode<FixedPointSolver> {
+ public:
+  CvodeAdams(const OptionValues& options, const HeavyTopParameters& parameters, double duration)
+      : Cvode(CV_ADAMS, options, parameters, duration) {
+    require(CVodeSetNonlinearSolver(memory_.get(), algebra_.solver.get()), "CVodeSetNonlinearSolver");
+  }
+
+  OutsideCounts counts() const { return counts_of_steps(); }
+};
+
+}  // namespace
+
+OutsideRuns cvode_bdf_runs() {
+  return runs_of<CvodeBdf>();
+}
+OutsideRuns cvode_adams_runs() {
+  return runs_of<CvodeAdams>();
+}
+
+}  // namespace outside
+
+}  // namespace liebench
