@@ -32,6 +32,8 @@ std::vector<MethodOptions> some_methods() {
     methods.emplace_back(FaltinsenBdf::Options{
         .k = 4, .variant = FaltinsenBdf::Variant::bch, .modified_start = modified, .form = form});
   }
+  methods.emplace_back(Rattlie::Options{});
+  methods.emplace_back(Shakelie::Options{});
   return methods;
 }
 
