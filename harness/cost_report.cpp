@@ -36,9 +36,16 @@ std::vector<RecordRow> rows_of(const std::vector<RecordRow>& records, const Sett
   return rows;
 }
 
-using Cost = std::optional<double> CostEntry::*;
+// In a table of several forms those of index 3 say so.
+std::string row_name(const std::vector<Curve>& list, const CurveIdentity& identity) {
+  const bool several = std::any_of(list.begin(), list.end(), [&](const Curve& curve) {
+    return curve.identity->form() != list.front().identity->form();
+  });
+  return method_name(identity) + (several && identity.form() == "index3" ? ", index 3" : "");
+}
 
-// A row a method, a column a target; the least of each column in bold.
+}  // namespace
+
 std::string cost_table(const std::vector<RecordRow>& rows, Cost cost) {
   const std::vector<Curve> list = curves(rows);
   std::vector<Column> columns{{.header = "method"}};
@@ -56,7 +63,7 @@ std::string cost_table(const std::vector<RecordRow>& rows, Cost cost) {
   }
   Table table("", columns);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    Row row{method_name(*list[i].identity)};
+    Row row{row_name(list, *list[i].identity)};
     for (std::size_t t = 0; t < shown_targets.size(); ++t) {
       const CostEntry& entry = entries[i][t];
       if (!entry.reached || !(entry.*cost)) {
@@ -72,6 +79,8 @@ std::string cost_table(const std::vector<RecordRow>& rows, Cost cost) {
   }
   return to_markdown(table);
 }
+
+namespace {
 
 // Over all formulations and forms.
 std::string winners(const std::vector<RecordRow>& records, Cost cost, const char* unit) {
@@ -102,13 +111,13 @@ std::string winners(const std::vector<RecordRow>& records, Cost cost, const char
   return to_markdown(table);
 }
 
+}  // namespace
+
 bool all_timed(const std::vector<RecordRow>& records) {
   return std::all_of(records.begin(), records.end(), [](const RecordRow& record) {
     return !record.ended_well() || record[record_number("time/total_ns")];
   });
 }
-
-}  // namespace
 
 Figure cost_accuracy_figure(const std::vector<RecordRow>& records) {
   std::vector<RecordRow> shown;

@@ -9,6 +9,7 @@
 
 #include "harness/correction_stability.h"
 #include "harness/cost_report.h"
+#include "harness/field.h"
 #include "harness/formulations.h"
 #include "harness/select.h"
 
@@ -292,8 +293,15 @@ const std::vector<PaperFigure>& paper_figures() {
       {"faltinsen_bdf", {"faltinsen_bdf.json"}},
       {"correction_stability", {"correction_stability.json"}},
       {"formulations", {"formulations.json"}},
-      {"cost_accuracy", {"cost_accuracy.json", "cost_accuracy_explicit.json"}, true},
-      {"verification", {"verification.json", "verification_own_start.json", "verification_explicit.json"}}};
+      {"cost_accuracy", {"cost_accuracy.json"}, true},
+      {"field",
+       {"field_unconstrained.json", "field_constrained.json", "field_tolerance.json",
+        "field_tolerance_constrained.json"},
+       true,
+       {"field_outside.json", "field_outside_constrained.json"}},
+      {"verification",
+       {"verification.json", "verification_own_start.json", "verification_unconstrained.json",
+        "verification_constrained.json"}}};
   return list;
 }
 
@@ -310,6 +318,7 @@ std::map<std::string, Figure> draw_paper_figure(const PaperFigure& figure,
   if (figure.name == "correction_stability")
     return {{"correction_stability", correction_stability_figure(records)}};
   if (figure.name == "cost_accuracy") return {{"cost_accuracy", cost_accuracy_figure(records)}};
+  if (figure.name == "field") return {{"field", field_figure(records)}};
   if (figure.name == "formulations") return {{"formulations", formulations_figure(records)}};
   if (figure.name == "stabilized_index2") return {{"stabilized_index2", stabilized_figure(records)}};
   if (figure.name == "figure2")

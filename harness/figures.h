@@ -18,6 +18,8 @@ struct PaperFigure {
   std::string_view name;
   std::vector<std::string_view> studies;  // files in harness/studies
   bool timed = false;                     // its runs in double are timed, too
+  std::vector<std::string_view>
+      outside_studies{};  // of solvers that this program may have been built without
 };
 
 // Figures 1 to 4 of the paper, then the others, in this order.

@@ -193,9 +193,16 @@ std::string matrices(const std::map<std::string, std::vector<RecordRow>>& record
        "Order k (generalized-alpha: 2) in all components and over the whole interval, from initial values "
        "alone: "
        "Runge-Kutta-Munthe-Kaas start, modified starting velocities in the index-3 form"},
-      {"verification_explicit", "Explicit methods without constraints",
-       "The order of the tableau, of CF4 four and of Crouch-Grossman three, in q and v and over the whole "
-       "interval: on the group as in a linear space"}};
+      {"verification_unconstrained", "The rest of the field, without constraints",
+       "On the group as in a linear space: the order of the tableau, of CF4 four, of Crouch-Grossman three, "
+       "k of k-step "
+       "methods, two of the symmetric methods of one stage, 2 s of Gauss and 5 of Radau IIA, at the end and "
+       "over the "
+       "whole interval"},
+      {"verification_constrained", "The rest of the field, with constraints",
+       "RATTLie and SHAKELie have order 2 in all components and no transient phase; half-explicit methods "
+       "and Radau IIA "
+       "lose one order in lambda, Radau IIA of index 3 two orders in v and three in lambda"}};
   std::string text;
   Table csv("", order_matrix_columns());
   for (const MatrixSection& section : sections) {

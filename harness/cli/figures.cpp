@@ -9,7 +9,9 @@
 #include "harness/embedded.h"
 #include "harness/errors.h"
 #include "harness/execute.h"
+#include "harness/field.h"
 #include "harness/formulations.h"
+#include "harness/outside/outside_methods.h"
 #include "harness/progress.h"
 #include "harness/record.h"
 #include "harness/record_file.h"
@@ -36,7 +38,12 @@ constexpr double shortest_step_of_short_form = 1e-4;
 // The runs of all studies of a figure.
 std::vector<RunSpec> figure_runs(const PaperFigure& figure, bool short_form) {
   std::vector<RunSpec> runs;
-  for (const std::string_view file : figure.studies) {
+  std::vector<std::string_view> files = figure.studies;
+  if (outside_obstacle().empty())
+    files.insert(files.end(), figure.outside_studies.begin(), figure.outside_studies.end());
+  else if (!figure.outside_studies.empty())
+    fmt::print(stderr, "{}: without solvers from outside: {}\n", figure.name, outside_obstacle());
+  for (const std::string_view file : files) {
     const Study study = read_study(parse_json(embedded_file(file), std::string(file)));
     for (const RunSpec& run : study.runs)
       if (run.local_steps > 0 || !short_form || run.method->chooses_steps ||
@@ -121,6 +128,7 @@ int figures(const FigureOptions& options) {
                 json_lines({records.begin() + first, records.begin() + last}));
     const std::vector<RecordRow> rows(all_rows.begin() + first, all_rows.begin() + last);
     if (figure.name == "cost_accuracy") write_whole(out / "cost_accuracy.md", cost_report(rows));
+    if (figure.name == "field") write_whole(out / "field_tables.md", field_report(rows));
     if (figure.name == "formulations") write_whole(out / "formulations.md", formulations_report(rows));
     std::filesystem::path shown = out / fmt::format("{}.jsonl", figure.name);
     for (const auto& [name, picture] : draw_paper_figure(figure, rows)) {

@@ -26,6 +26,10 @@ std::optional<double> Contestant::rho_inf() const {
   return options.real("rho_inf");
 }
 
+std::string_view Contestant::own_form() const {
+  return is("shakelie") ? "index3" : "stabilized_index2";
+}
+
 bool Contestant::can_be_safeguarded() const {
   return has_option(*method, safeguard_option.name);
 }
@@ -68,6 +72,13 @@ const std::vector<Contestant>& contestants(bool safeguard) {
       all.push_back(contestant("faltinsen_bdf", {{"k", k}, {"variant", std::string("exact")}}));
     for (const int k : {3, 4})
       all.push_back(contestant("faltinsen_bdf", {{"k", k}, {"variant", std::string("bch")}}));
+    for (const int k : {2, 4, 6}) all.push_back(contestant("centred_bdf", {{"k", k}}));
+    for (const char* name : {"rattlie", "shakelie", "radau"}) all.push_back(contestant(name, {}));
+    for (const char* tableau : {"herk3", "herk4", "hedop5"})
+      all.push_back(contestant("half_explicit", {{"tableau", std::string(tableau)}}));
+    for (const int stages : {2, 4}) all.push_back(contestant("gauss", {{"stages", stages}}));
+    for (const char* name : {"implicit_midpoint", "newmark", "liemid"}) all.push_back(contestant(name, {}));
+    for (const int k : {2, 4, 6}) all.push_back(contestant("faltinsen_adams", {{"k", k}}));
     for (const char* tableau : {"rk4", "dopri5", "butcher6"})
       all.push_back(contestant("rkmk", {{"tableau", std::string(tableau)}}));
     all.push_back(contestant("commutator_free", {}));

@@ -27,6 +27,9 @@ struct Contestant {
   std::string_view correction() const;
   // Whether the method has the option `safeguard`, for it solves an equation in each step.
   bool can_be_safeguarded() const;
+  // Of a method without the option "form": that whose constraints its steps fulfil. SHAKELie has Phi = 0 alone, RATTLie the hidden
+  // constraint too, half-explicit methods that one alone.
+  std::string_view own_form() const;
   // rho_inf of generalized-alpha.
   std::optional<double> rho_inf() const;
   // All options for a form; "" for a system without constraints. `modified_start`: where it means something.

@@ -1,0 +1,139 @@
+#include "harness/field.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <utility>
+
+#include "harness/cost_report.h"
+#include "harness/order_matrix.h"
+#include "harness/record_plots.h"
+#include "harness/select.h"
+
+namespace liebench {
+
+namespace {
+
+const Quantity error_of_q{"q", "end_relative"};
+
+struct Problem {
+  bool constrained, fast;
+  const char* title;
+};
+constexpr std::array problems_shown{
+    Problem{false, true, "fast top, no constraints"}, Problem{true, true, "fast top, constrained"},
+    Problem{false, false, "slow top, no constraints"}, Problem{true, false, "slow top, constrained"}};
+
+bool belongs(const CurveIdentity& c, const Problem& problem) {
+  const bool constrained = c.formulation != "SO3" && c.formulation != "S3";
+  const bool fast = c.parameters->at("angular_velocity").at(1).get<double>() > 10.0;
+  return constrained == problem.constrained && fast == problem.fast;
+}
+
+std::vector<RecordRow> rows_of(const std::vector<RecordRow>& records, const Problem& problem) {
+  std::vector<RecordRow> rows;
+  for (const RecordRow& record : records)
+    if (belongs(*record.curve, problem)) rows.push_back(record);
+  return rows;
+}
+
+// The members of each family that the picture shows: a colour for a family, a mark for a member.
+struct Shown {
+  std::string_view integrator;
+  std::vector<std::pair<const char*, Json>> options;
+  std::string label, tag;
+  int style, mark;
+  bool outside = false;
+};
+const std::vector<Shown>& shown() {
+  static const std::vector<Shown> list{
+      {"bliedf2nd", {{"k", 4}}, "BLieDF2nd, k = 4", "B4", 0, 0},
+      {"bliedf2nd", {{"k", 6}}, "BLieDF2nd, k = 6", "B6", 0, 1},
+      {"bliedf2nd_variable", {}, "BLieDF2nd, variable", "Bv", 0, 2},
+      {"faltinsen_bdf", {{"k", 4}}, "Faltinsen BDF, k = 4", "F4", 1, 0},
+      {"faltinsen_adams", {{"k", 6}}, "Faltinsen Adams, k = 6", "A6", 1, 1},
+      {"generalized_alpha", {}, "generalized-α", "gα", 2, 0},
+      {"rattlie", {}, "RATTLie", "R", 2, 1},
+      {"rkmk", {{"tableau", "rk4"}}, "RKMK rk4", "4", 3, 0},
+      {"rkmk", {{"tableau", "butcher6"}}, "RKMK butcher6", "6", 3, 1},
+      {"rkmk_variable", {}, "RKMK dopri5, variable", "5v", 3, 2},
+      {"half_explicit", {{"tableau", "herk4"}, {"projection", false}}, "HERK4", "H4", 3, 3},
+      {"half_explicit", {{"tableau", "hedop5"}, {"projection", false}}, "HEDOP5", "H5", 3, 4},
+      {"radau", {}, "Radau IIA, s = 3", "Ra", 4, 0},
+      {"gauss", {{"stages", 4}}, "Gauss, s = 4", "G4", 4, 1},
+      {"gauss", {{"stages", 8}}, "Gauss, s = 8", "G8", 4, 2},
+      {"cvode_bdf", {}, "CVODE BDF", "cb", 5, 0, true},
+      {"cvode_adams", {}, "CVODE Adams", "ca", 5, 1, true},
+      {"arkode_erk", {}, "ARKODE ERK", "ae", 5, 2, true},
+      {"ida", {}, "IDA", "ida", 5, 3, true}};
+  return list;
+}
+
+// In the stabilized form, where the method has a choice.
+bool is(const CurveIdentity& c, const Shown& shown) {
+  if (c.integrator != shown.integrator || c.form() == "index3") return false;
+  return std::all_of(shown.options.begin(), shown.options.end(),
+                     [&](const auto& option) { return c.has_option(option.first, option.second); });
+}
+
+}  // namespace
+
+Figure field_figure(const std::vector<RecordRow>& records) {
+  const Abscissa& x = dearest_abscissa(records);
+  Figure figure{
+      .title = "What accuracy costs: methods and solvers on the heavy top over 2 s, from initial values",
+      .rows = 2,
+      .columns = 2,
+      .panels = {}};
+  for (const Problem& problem : problems_shown) {
+    Panel panel{.title = problem.title, .x_label = std::string(x.label), .y_label = "relative error of q"};
+    for (const Shown& each : shown()) {
+      Series series{.label = each.label,
+                    .style = each.style,
+                    .secondary = each.outside,
+                    .mark = each.mark,
+                    .tag = each.tag};
+      for (const RecordRow& record : records) {
+        if (!belongs(*record.curve, problem) || !is(*record.curve, each)) continue;
+        const auto value = value_of(record, x);
+        if (const auto error = error_of(record, error_of_q); error && value)
+          series.points.push_back({*value, *error});
+      }
+      std::sort(series.points.begin(), series.points.end(),
+                [](const Point& a, const Point& b) { return a.x < b.x; });
+      if (!series.points.empty()) panel.series.push_back(std::move(series));
+    }
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+std::string field_report(const std::vector<RecordRow>& records) {
+  const bool times = all_timed(records);
+  std::string text =
+      "# The field\n\n"
+      "Written by `liebench figures`; do not edit. The heavy top over 2 s in double precision, every method "
+      "from initial "
+      "values alone; errors are the relative error of q at the end. Numbers are interpolated between runs "
+      "(rules: "
+      "[tables](tables.md)); \"e\": extrapolated by a decade at most; \"c\": the coarsest run that ends well "
+      "is better "
+      "already; a dash: not reached. The least of a column is bold. Constrained methods with a choice are in "
+      "the stabilized "
+      "index-2 form unless they say otherwise. [What it shows](field.md), in words.\n";
+  if (!times) text += "\nNo run was timed (short form): floating point operations only.\n";
+  for (const Problem& problem : problems_shown) {
+    const std::vector<RecordRow> rows = rows_of(records, problem);
+    if (rows.empty()) continue;
+    text += fmt::format("\n## {}{}\n\n", char(std::toupper(problem.title[0])), problem.title + 1);
+    if (times)
+      text += "Computing time in ms for an error of\n\n" + cost_table(rows, &CostEntry::time_ms) + "\n";
+    text += "Floating point operations for an error of\n\n" + cost_table(rows, &CostEntry::flops);
+  }
+  return text;
+}
+
+}  // namespace liebench
