@@ -395,7 +395,7 @@ class Gauss::Stepper {
     }
     const auto inverted = [&](Inverse& inverse) {
       if (!inverse.allFinite()) return Outcome::non_finite;
-      audit_.factorization(FactorizationCause::refresh);
+      audit_.factorization(first_ ? FactorizationCause::first : FactorizationCause::refresh);
       return invert<std::size_t(most_unknowns)>(inverse.data(), std::size_t(unknowns()))
                  ? Outcome::ok
                  : Outcome::singular_matrix;
