@@ -1,6 +1,7 @@
 #pragma once
 
 #include "integrators/bliedf2nd.h"
+#include "integrators/bliedf2nd_variable.h"
 #include "integrators/commutator_free.h"
 #include "integrators/crouch_grossman.h"
 #include "integrators/faltinsen_bdf.h"
@@ -15,7 +16,7 @@ struct IntegratorList {};
 
 // Every integrator of the program. A method that is not in this list is nowhere; one that is in it is in
 // every command.
-using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, Rkmk, RkmkVariable,
-                                   CommutatorFree, CrouchGrossman>;
+using Integrators = IntegratorList<BLieDF2nd, BLieDF2ndVariable, GeneralizedAlpha, FaltinsenBdf, Rkmk,
+                                   RkmkVariable, CommutatorFree, CrouchGrossman>;
 
 }  // namespace liebench
