@@ -1,6 +1,7 @@
 #pragma once
 
 #include "integrators/bliedf2nd.h"
+#include "integrators/bliedf2nd_variable.h"
 #include "integrators/centred_bdf.h"
 #include "integrators/commutator_free.h"
 #include "integrators/crouch_grossman.h"
@@ -25,8 +26,9 @@ struct IntegratorList {};
 
 // Every integrator of the program. A method that is not in this list is nowhere; one that is in it is in
 // every command.
-using Integrators = IntegratorList<BLieDF2nd, GeneralizedAlpha, FaltinsenBdf, CentredBdf, Rattlie, Shakelie,
-                                   HalfExplicit, Radau, Gauss, ImplicitMidpoint, Newmark, Liemid, Rkmk,
-                                   RkmkVariable, CommutatorFree, CrouchGrossman, FaltinsenAdams>;
+using Integrators =
+    IntegratorList<BLieDF2nd, BLieDF2ndVariable, GeneralizedAlpha, FaltinsenBdf, CentredBdf, Rattlie,
+                   Shakelie, HalfExplicit, Radau, Gauss, ImplicitMidpoint, Newmark, Liemid, Rkmk,
+                   RkmkVariable, CommutatorFree, CrouchGrossman, FaltinsenAdams>;
 
 }  // namespace liebench

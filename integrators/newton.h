@@ -54,6 +54,20 @@ class NewtonKernel {
   const Audit& audit() const { return audit_; }
   Audit& audit() { return audit_; }
 
+  // The next step size, or closure, is another one: solve() forms its matrix anew.
+  void outdate() { outdated_ = true; }
+
+  // The part of a velocity w at q that the constraint allows, w - M^{-1} B^T mu with B w = 0 afterwards, by the matrix of the last
+  // step, from J (d, h lambda) = (M w, 0): as good as M and B are in it, and less what is stiff there. `slope` is the factor of M in J.
+  Velocity<S> tangential_part(const Configuration<S>& q, const Velocity<S>& w, const T& slope) {
+    Unknowns r = Equation::unknowns(system_);
+    r.setConstant(T(0.0));
+    Equation::change(r, system_) = system_.momentum(q, w);
+    const Correction d = matrix_.solve(in_linear_scalar(r));
+    audit_.solve();
+    return slope * Equation::change(d, system_).template cast<T>();
+  }
+
   // Solves the step equation from the prediction in z; leaves the solution in z and the new state in `point`. Not to be
   // inlined: all methods whose closures are of one type share its code. In double all that it calls is, so that the small
   // matrices stay in registers.
@@ -146,7 +160,7 @@ class NewtonKernel {
     Linear previous = 0.0;
     const Linear scale = fixed_scale(closure, q_n, to_linear(h));
     Unknowns r = Equation::unknowns(system_);
-    if (!factorized_ || marginal_cost_exceeds_average()) {
+    if (!factorized_ || outdated_ || marginal_cost_exceeds_average()) {
       const auto cause = factorized_ ? FactorizationCause::refresh : FactorizationCause::first;
       if (const Outcome formed = factorize(t, h, q_n, closure, z, z, cause); formed != Outcome::ok)
         return {formed};
@@ -317,6 +331,7 @@ class NewtonKernel {
     Equation::evaluate(system_, h, q_n, closure, at, point);
     const Outcome formed = matrix_.factorize(system_, t, h, q_n, closure, point, z);
     factorized_ = formed == Outcome::ok;
+    outdated_ = false;
     audit_.factorization(cause);
     spent_ = matrix_.factorization_cost();
     steps_ = 0;
@@ -343,8 +358,9 @@ class NewtonKernel {
   S system_;
   StepMatrix matrix_;
   bool factorized_ = false;
-  Linear rate_ = 1.0;     // contraction seen with this factorization
-  double noise_ = noise;  // what a stalled iteration is allowed with an old matrix
+  bool outdated_ = false;  // outdate()
+  Linear rate_ = 1.0;      // contraction seen with this factorization
+  double noise_ = noise;   // what a stalled iteration is allowed with an old matrix
   double spent_ = 0.0;
   int steps_ = 0;  // steps since the factorization
   int last_ = 0;   // iterations of the last one
