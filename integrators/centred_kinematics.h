@@ -108,15 +108,11 @@ class CentredClosure {
     const Velocity<S> Dq = increment(d);
     set(here.step, state_.h * Dq);
     const Configuration<S> motion = group_.exp(here.step);
-    Velocity<S> sum;
-    for (int i = 2; i <= state_.k; ++i) {
-      Velocity<S>& L = here.logarithms[place(i)];
-      L = group_.log(group_.compose(motions_.over(i - 1), motion));
-      if (i == 2)
-        set(sum, alpha(2) * L);
-      else
-        set(sum, sum + alpha(i) * L);
-    }
+    const auto logarithm = [&](int i) -> const Velocity<S>& {
+      return here.logarithms[place(i)] = group_.log(group_.compose(motions_.over(i - 1), motion));
+    };
+    Velocity<S> sum = alpha(2) * logarithm(2);
+    for (int i = 3; i <= state_.k; ++i) set(sum, sum + alpha(i) * logarithm(i));
     set(here.velocity_change, -(alpha(1) * Dq + sum / state_.h) - affine_.velocity);
     return here;
   }

@@ -41,11 +41,16 @@ class StageSolver<S> {
   using Linear = LinearScalar<T>;
   static constexpr int m = S::Group::dimension, l = S::constraints, block = mass_block<S>();
   static constexpr int passes = ScalarTraits<T>::extended ? refinement_passes<T> : 1;
+  using Block = Eigen::Matrix<Linear, block, block>;
   using Force = Eigen::Matrix<Linear, m, 1>;
   using Rate = Eigen::Matrix<Linear, l, 1>;
 
  public:
-  explicit StageSolver(const S&) {}
+  explicit StageSolver(const S&) {
+    inverse_.fill(Block::Zero());
+    rows_.setZero();
+    accelerations_.setZero();
+  }
 
   template <class Audit>
   void prepare(const S& system, Audit& audit) {
@@ -148,7 +153,7 @@ class StageSolver<S> {
     x = free - accelerations_.lazyProduct(y);
   }
 
-  std::array<Eigen::Matrix<Linear, block, block>, std::size_t(m / block)> inverse_;
+  std::array<Block, std::size_t(m / block)> inverse_;
   bool regular_ = false;
   ConstraintGradient<S> rows_;
   Eigen::Matrix<Linear, m, l> accelerations_;  // M^{-1} B(q)^T

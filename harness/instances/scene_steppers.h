@@ -2,6 +2,7 @@
 
 #include "harness/instances/run_time_steppers.h"
 #include "integrators/sparse_radau_matrix.h"
+#include "integrators/sparse_stage_solver.h"
 #include "integrators/sparse_step_matrix.h"
 #include "problems/scene_model.h"
 
