@@ -25,11 +25,12 @@ TEST(AllocationCounter, SeesOperatorNewAndTheMatricesOfEigen) {
   EXPECT_EQ(matrix(0, 0), 7.0);
 }
 
+// `length`: of a step, or of the interval of a method that chooses its steps.
 template <class S>
 void expect_no_allocation(const S& system, AnyStepper<S>& stepper, const HeavyTopMotion& motion,
-                          const std::string& text) {
+                          double length, const std::string& text) {
   using T = typename S::Scalar;
-  const T h(0.005);  // h |v| = 0.02
+  const T h(length);
   std::vector<SolutionPoint<S>> points;
   for (int j = 0; j < stepper.starting_points(); ++j)
     points.push_back(motion.point(system, Extended(h) * double(j)));
@@ -52,7 +53,11 @@ void expect_no_allocation_of_any_method() {
   const S system(p);
   const HeavyTopMotion motion(p, 0.2);
   for (const MethodCase<S>& method : every_method<S>())
-    expect_no_allocation(system, *method.stepper(system), motion, method.text());
+    expect_no_allocation(system, *method.stepper(system), motion, 0.005, method.text());  // h |v| = 0.02
+  for (const Form form : {Form::index3, Form::stabilized_index2})
+    expect_no_allocation(system,
+                         *make_stepper<BLieDF2ndVariable, S>({.tolerance = 1e-8, .form = form}, system),
+                         motion, 1.0, "bliedf2nd_variable");
 }
 
 // Those of the program, where it runs and where it times. What is not in double is vectors of run-time size, which allocate.
