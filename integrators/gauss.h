@@ -190,12 +190,13 @@ class Gauss::Stepper {
     if (const Outcome turned = outcome_of_turn(system_, step); turned != Outcome::ok) return {turned};
     Velocity<S> change = coefficients_.b[0] * F_[0];
     for (std::size_t j = 1; j < stages(); ++j) change += coefficients_.b[j] * F_[j];
-    if (!std::isfinite(to_double(T(change.squaredNorm())))) return {Outcome::non_finite};
-    const auto group = group_of(system_);
-    q_ = group.compose(q_, group.exp(step));
     // Summed with what the sum rounded away before [Kahan 1965; Hairer, Lubich & Wanner 2006, VIII.5].
     const Velocity<S> corrected = h_ * change + rounding_;
-    const Velocity<S> sum = velocity_ + corrected;
+    Velocity<S> sum = velocity_;
+    sum += corrected;
+    if (!std::isfinite(to_double(T(sum.squaredNorm())))) return {Outcome::non_finite};
+    const auto group = group_of(system_);
+    q_ = group.compose(q_, group.exp(step));
     const Velocity<S> added = sum - velocity_;
     rounding_ = corrected - added;
     velocity_ = sum;

@@ -160,11 +160,12 @@ std::vector<Property<T>> tangent_properties() {
                    EXPECT_LE(S.length(G.adjoint_transposed_change(v, w) - beyond_unit.transpose() * w), size)
                        << angle;
                    // A change is known to its own round-off.
-                   if (angle < 1e-3)
+                   if (angle < 1e-3) {
                      EXPECT_LE(S.length(G.tangent_inverse_transposed_change(v, w) +
                                         G.tangent_inverse_transposed_change(-v, w)),
                                S.length(v) * S.length(v) * S.length(w))
                          << angle;
+                   }
                  }
                }
            }},
