@@ -17,7 +17,7 @@ namespace liebench {
 
 namespace {
 
-const Quantity error_of_q{"q", "end_relative"};
+const Quantity end_error{"q", "end_relative"};  // of q
 
 struct Problem {
   bool constrained, fast;
@@ -99,7 +99,7 @@ Figure field_figure(const std::vector<RecordRow>& records) {
       for (const RecordRow& record : records) {
         if (!belongs(*record.curve, problem) || !is(*record.curve, each)) continue;
         const auto value = value_of(record, x);
-        if (const auto error = error_of(record, error_of_q); error && value)
+        if (const auto error = error_of(record, end_error); error && value)
           series.points.push_back({*value, *error});
       }
       std::sort(series.points.begin(), series.points.end(),
