@@ -1,6 +1,7 @@
 #pragma once
 
 #include "harness/instances/run_time_steppers.h"
+#include "integrators/sparse_stage_solver.h"
 #include "integrators/sparse_step_matrix.h"
 #include "problems/scene_model.h"
 
