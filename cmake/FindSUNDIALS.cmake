@@ -1,7 +1,7 @@
 # Finds the solvers CVODE, ARKODE and IDA of SUNDIALS with their serial vectors [Hindmarsh et al. 2005].
 #
 #   SUNDIALS_FOUND, SUNDIALS_VERSION
-#   SUNDIALS::SUNDIALS      imported target: headers <cvode/cvode.h>, <arkode/...>, <ida/ida.h>, <nvector/nvector_serial.h>
+#   SUNDIALS::SUNDIALS      imported target: headers <cvode/cvode.h>, <arkode/arkode_erkstep.h>, <ida/ida.h>, ...
 #   SUNDIALS_INCLUDE_DIR, SUNDIALS_<LIBRARY>_LIBRARY      cache entries, to set where SUNDIALS lives elsewhere
 #
 # Its own configuration file, as Debian has it, asks for MPI, of which nothing here has use.

@@ -9,8 +9,8 @@
 #include "integrators/fits.h"
 #include "integrators/option.h"
 
-// The integrators of integrators/list.h and the solvers from outside (harness/outside/), seen from the harness: names and options,
-// and options from and to JSON.
+// The integrators of integrators/list.h and the solvers from outside (harness/outside/), seen from the harness: names
+// and options, and options from and to JSON.
 
 namespace liebench {
 
@@ -33,7 +33,8 @@ const MethodInfo* find_method(std::string_view name);
 
 bool has_option(const MethodInfo& method, std::string_view option);
 
-// Why a method does not integrate a system with or without constraints in this formulation, and which do; empty where it does.
+// Why a method does not integrate a system with or without constraints in this formulation, and which do; empty where
+// it does.
 std::string misfit(const MethodInfo& method, bool constrained, std::string_view formulation);
 // What it integrates: "problems without constraints".
 std::string fits_text(const MethodInfo& method);

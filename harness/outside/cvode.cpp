@@ -65,8 +65,8 @@ class Cvode : public QuaternionSolver {
   OwnedMemory<CVodeFree> memory_;
 };
 
-// BDF with Newton's method. After every step the quaternion is normalised, and the estimate of its error loses the part along it
-// [Eich 1993]; CVODE has this for BDF alone.
+// BDF with Newton's method. After every step the quaternion is normalised, and the estimate of its error loses the part
+// along it [Eich 1993]; CVODE has this for BDF alone.
 class CvodeBdf final : public Cvode<DenseSolver> {
  public:
   CvodeBdf(const OptionValues& options, const HeavyTopParameters& parameters, double duration)
@@ -98,8 +98,9 @@ class CvodeBdf final : public Cvode<DenseSolver> {
   }
 };
 
-// Adams-Moulton formulas with fixed-point iteration, as CVODE's guide has it for equations that are not stiff. Nothing is
-// normalised but what is read: the length of the quaternion, which has no effect, stays within the error of the steps.
+// Adams-Moulton formulas with fixed-point iteration, as CVODE's guide has it for equations that are not stiff. Nothing
+// is normalised but what is read: the length of the quaternion, which has no effect, stays within the error of the
+// steps.
 class CvodeAdams final : public Cvode<FixedPointSolver> {
  public:
   CvodeAdams(const OptionValues& options, const HeavyTopParameters& parameters, double duration)

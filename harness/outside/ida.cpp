@@ -12,8 +12,9 @@ namespace {
 
 constexpr FailureFlags flags{IDA_CONV_FAIL, IDA_LSETUP_FAIL, IDA_LSOLVE_FAIL, IDA_RES_FAIL, IDA_REP_RES_ERR};
 
-// BDF on the stabilized index-2 form, with the multipliers left out of the test of the error: their estimates do not fall with the
-// step size as those of the differential variables do [Petzold & Lotstedt 1986; the guide of IDA, IDASetSuppressAlg].
+// BDF on the stabilized index-2 form, with the multipliers left out of the test of the error: their estimates do not
+// fall with the step size as those of the differential variables do [Petzold & Lotstedt 1986; the guide of IDA,
+// IDASetSuppressAlg].
 class Ida final : public SteppingSolver<StabilizedTop> {
  public:
   template <class T>
@@ -72,9 +73,9 @@ class Ida final : public SteppingSolver<StabilizedTop> {
   }
 
  private:
-  // The step by which the Euler method errs by the tolerance, h^2 |q''| / 2, as CVODE and ARKODE choose their first. IDA's own choice,
-  // of h |q'|, is so short for small tolerances that eta and mu, which are round-off over h there, no longer fulfil the test of
-  // Newton's iteration: at 1e-8 it gives up at once.
+  // The step by which the Euler method errs by the tolerance, h^2 |q''| / 2, as CVODE and ARKODE choose their first.
+  // IDA's own choice, of h |q'|, is so short for small tolerances that eta and mu, which are round-off over h there, no
+  // longer fulfil the test of Newton's iteration: at 1e-8 it gives up at once.
   double first_step(double tolerance) const {
     const double rate = equations_.initial().segment<3>(10).norm() +
                         std::sqrt(equations_.initial_rate().segment<3>(10).norm());

@@ -11,10 +11,10 @@
 #include "integrators/fits.h"
 #include "integrators/option.h"
 
-// Solvers from outside: what one reaches for where no Lie group method is at hand. They run on the heavy top alone, each in the
-// formulation whose unknowns it has, over a whole interval with steps of their own; errors are those of that formulation, and the
-// costs what the solver itself counts. They are SUNDIALS's, where this program was built with it, and are listed and described where
-// it was not.
+// Solvers from outside: what one reaches for where no Lie group method is at hand. They run on the heavy top alone,
+// each in the formulation whose unknowns it has, over a whole interval with steps of their own; errors are those of
+// that formulation, and the costs what the solver itself counts. They are SUNDIALS's, where this program was built with
+// it, and are listed and described where it was not.
 
 namespace liebench {
 

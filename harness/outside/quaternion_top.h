@@ -8,7 +8,8 @@
 
 namespace liebench::outside {
 
-// The heavy top about its tip, eq. (57), as an ordinary differential equation of y = (p, Omega) in R^7, p the quaternion (w, x, y, z):
+// The heavy top about its tip, eq. (57), as an ordinary differential equation of y = (p, Omega) in R^7, p the
+// quaternion (w, x, y, z):
 //
 //   p' = p (0, Omega) / 2,   J Omega' = J Omega x Omega + X x R(p)^T m gamma
 //

@@ -5,8 +5,8 @@
 
 #include "groups/rotation_algebra.h"
 
-// The rotation of a quaternion p of any length, that of p / |p|: stages and iterates of a solver that does not know the unit sphere
-// leave it, and what they leave it by turns nothing. With p = (p0, u):
+// The rotation of a quaternion p of any length, that of p / |p|: stages and iterates of a solver that does not know the
+// unit sphere leave it, and what they leave it by turns nothing. With p = (p0, u):
 //
 //   R(p) w   = ((p0^2 - u.u) w + 2 (u.w) u + 2 p0 u x w) / |p|^2,   R(p)^T w = R(conj p) w
 

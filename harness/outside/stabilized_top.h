@@ -8,8 +8,9 @@
 
 namespace liebench::outside {
 
-// The heavy top as a free body held at its tip, eq. (58), in the stabilized index-2 form [Gear, Leimkuhler & Gupta 1985]: the
-// implicit equation F(y, y') = 0 of y = (x, p, u, Omega, lambda, eta, mu) in R^20, with z = R(p)^T x and J about the centre of mass,
+// The heavy top as a free body held at its tip, eq. (58), in the stabilized index-2 form [Gear, Leimkuhler & Gupta
+// 1985]: the implicit equation F(y, y') = 0 of y = (x, p, u, Omega, lambda, eta, mu) in R^20, with z = R(p)^T x and J
+// about the centre of mass,
 //
 //   x' = u + R(p) eta                                    q' = DL_q (v - B^T eta)~
 //   p' = p (0, Omega - z x eta) / 2 + mu p
@@ -18,8 +19,8 @@ namespace liebench::outside {
 //   0 = R(p)^T u + z x Omega                             -B v
 //   0 = (|p|^2 - 1) / 2
 //
-// The last line holds the quaternion on the unit sphere by its multiplier mu; eta = 0 and mu = 0 in the exact solution. y' of the
-// three multipliers is in no equation.
+// The last line holds the quaternion on the unit sphere by its multiplier mu; eta = 0 and mu = 0 in the exact solution.
+// y' of the three multipliers is in no equation.
 class StabilizedTop {
  public:
   static constexpr int size = 20;

@@ -82,7 +82,8 @@ int computed(const Numbers& numbers) {
   return numbers.allFinite() ? 0 : 1;
 }
 
-// A solver of the top as an ordinary differential equation, with the functions in the form in which CVODE and ARKODE call them.
+// A solver of the top as an ordinary differential equation, with the functions in the form in which CVODE and ARKODE
+// call them.
 class QuaternionSolver : public SteppingSolver<QuaternionTop> {
  public:
   template <class T>

@@ -11,13 +11,15 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
-// The objects of SUNDIALS [Hindmarsh et al. 2005; Gardner et al. 2022], each released by its owner; a solver's own memory, too.
+// The objects of SUNDIALS [Hindmarsh et al. 2005; Gardner et al. 2022], each released by its owner; a solver's own
+// memory, too.
 
 namespace liebench::outside {
 
@@ -38,7 +40,8 @@ struct ReleaseMemory {
 template <void (*free)(void**)>
 using OwnedMemory = std::unique_ptr<void, ReleaseMemory<free>>;
 
-// Throws std::logic_error unless the call of `function` went well: none of those that prepare a solver depends on the problem.
+// Throws std::logic_error unless the call of `function` went well: none of those that prepare a solver depends on the
+// problem.
 inline void require(int flag, std::string_view function) {
   if (flag < 0) throw std::logic_error(fmt::format("{} of SUNDIALS ended with {}", function, flag));
 }

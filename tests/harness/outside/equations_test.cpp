@@ -23,7 +23,8 @@ HeavyTopParameters general_top() {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-// Central differences of step d err by d^2 times third derivatives, and by eps / d times values, both of the size of a hundred here.
+// Central differences of step d err by d^2 times third derivatives, and by eps / d times values, both of the size of a
+// hundred here.
 constexpr double difference = 1e-5;
 constexpr double difference_error = 1e-7;
 

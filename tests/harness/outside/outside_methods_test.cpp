@@ -64,7 +64,8 @@ TEST_F(OutsideRunsTest, TheErrorFallsWithTheTolerance) {
         before[component] = error;
       }
     }
-    // The smallest tolerance bounds the error of a step; those of the thousands of steps of a fifth of a second come together.
+    // The smallest tolerance bounds the error of a step; those of the thousands of steps of a fifth of a second come
+    // together.
     EXPECT_LT(before.at("q"), 1e-4) << method.name;
   }
 }

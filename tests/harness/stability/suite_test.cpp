@@ -81,8 +81,8 @@ TEST(StabilitySuite, AnUnknownCaseIsRefusedWithTheNearestName) {
   }
 }
 
-// A method is in the suite with every choice of options that sets its members apart, or the suite would say nothing of it. Its
-// cases give step sizes: methods that choose theirs, and with them the solvers from outside, are none of it.
+// A method is in the suite with every choice of options that sets its members apart, or the suite would say nothing of
+// it. Its cases give step sizes: methods that choose theirs, and with them the solvers from outside, are none of it.
 TEST(StabilitySuite, EveryMethodOfTheListIsAContestant) {
   std::set<std::string_view> names;
   for (const Contestant& contestant : contestants(true)) names.insert(contestant.method->name);
