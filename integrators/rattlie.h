@@ -115,7 +115,7 @@ class Rattlie::Stepper : public VariationalStepper<S, Audit> {
     for (int pass = 0; pass < refinement_passes<T>; ++pass) newton_.audit().solve();
     set(v, v + solution->x);
     Base::keep(ahead_.change, ahead_.impulse);
-    Solution next;
+    Solution next = ahead_;  // GCC does not see that it is written where it is read
     const StepResult result = Base::solve_from_velocity(t, q, v, f, next);
     if (result.outcome != Outcome::ok) return result;
     set(lambda_, (solution->y + next.impulse) / h_);

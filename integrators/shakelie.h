@@ -86,7 +86,7 @@ class Shakelie::Stepper : public VariationalStepper<S, Audit> {
     const Velocity<S>& increment = ahead_.point.values.velocity;
     const Velocity<S> f = Base::force_behind(t, ahead_);
     const Velocity<S> transported = Base::transported_behind(ahead_);
-    Solution next;
+    Solution next = ahead_;  // GCC does not see that it is written where it is read
     StepResult result =
         Base::solve_from(t, q, {increment, ahead_.point.momentum, h_ * f - transported}, next);
     if (result.outcome != Outcome::ok) return result;
