@@ -8,8 +8,8 @@
 
 namespace liebench {
 
-// M(q) x = a, for methods that need no other matrix. What depends on nothing is factorized once, in prepare(); refined in extended
-// precision. solve() is false where M is singular.
+// M(q) x = a, for methods that need no other matrix. What depends on nothing is factorized once, in prepare();
+// refined in extended precision. solve() is false where M is singular.
 template <MechanicalSystem S>
 class MassSolver {
   using T = typename S::Scalar;

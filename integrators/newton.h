@@ -13,8 +13,8 @@
 #include "integrators/step_equation.h"
 #include "integrators/step_matrix.h"
 
-// The Newton kernel that solves the step equation of every method: StepEquation, or another with the same unknowns and functions
-// (MomentumEquation).
+// The Newton kernel that solves the step equation of every method: StepEquation, or another with the same unknowns
+// and functions (MomentumEquation).
 //
 // Simplified Newton iteration: one factorization serves iterations and steps until a fresh one is cheaper.
 // The residual is evaluated in the scalar T of the run, matrix and correction in LinearScalar<T>, double (iterative
