@@ -132,8 +132,8 @@ struct RigidMotionAlgebra {
   }
 
  private:
-  // start + ((F - I) a + D alpha, (F - I) alpha) for w = (a, alpha), F = I + f skew(Omega) + g skew(Omega)^2 and D its derivative
-  // along U, by vector products; slopes as in skew_polynomial_derivative.
+  // start + ((F - I) a + D alpha, (F - I) alpha) for w = (a, alpha), F = I + f skew(Omega) + g skew(Omega)^2 and D
+  // its derivative along U, by vector products; slopes as in skew_polynomial_derivative.
   static Tangent polynomial_times(const Tangent& v, const Tangent& w, const Tangent& start, const T& f,
                                   const T& f_slope, const T& g, const T& g_slope) {
     const Vector U = shift(v), omega = turn(v);

@@ -24,8 +24,8 @@ struct ClosureValues {
   Velocity<S> scaled_acceleration;  // h v'_{n+1}
 };
 
-// Derivative: a number where it is a multiple of the identity, else an m x m matrix. explicit_forces: the equations of motion have
-// their forces, and those of the constraints, at q_n and not at the new point.
+// Derivative: a number where it is a multiple of the identity, else an m x m matrix. explicit_forces: the equations
+// of motion have their forces, and those of the constraints, at q_n and not at the new point.
 template <class Derivative, bool explicit_forces = false>
 struct ClosureDerivatives {
   Derivative velocity;

@@ -44,6 +44,14 @@ inline constexpr OptionInfo safeguard_option{
         "solve a step again where Newton's iteration fails or turns too far: damped, from the last "
         "increment, to what rounding leaves"};
 
+// Of a method with this option alone.
+struct SafeguardOptions {
+  bool safeguard = false;
+};
+inline SafeguardOptions safeguard_options(const OptionValues& values) {
+  return {.safeguard = values.boolean_or("safeguard", false)};
+}
+
 // A run-time option as a compile-time parameter of a stepper.
 template <Form form>
 struct FormConstant {};

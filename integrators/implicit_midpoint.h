@@ -21,40 +21,15 @@
 //   M(q_w) (v_{n+1} - v_n) = -h g(t_n + h/2, q_w, w),   w = (v_n + v_{n+1}) / 2,   q_w = q_n o exp(h/2 w~)
 //   q_{n+1} = q_n o exp(h w~)
 //
-// It is the implicit Euler method over h / 2, w - v_n = h/2 v'_w, q_w = q_n o exp(h/2 w~), and its mirror image: the step
-// equation is solved for that, and the mirror image is q_{n+1} = q_w o exp(h/2 w~), v_{n+1} = 2 w - v_n. In a linear space
-// it is the classical rule: it keeps quadratic invariants there.
+// It is the implicit Euler method over h / 2, w - v_n = h/2 v'_w, q_w = q_n o exp(h/2 w~), and its mirror image: the
+// step equation is solved for that, and the mirror image is q_{n+1} = q_w o exp(h/2 w~), v_{n+1} = 2 w - v_n. In a
+// linear space it is the classical rule: it keeps quadratic invariants there.
 
 namespace liebench {
 
-struct ImplicitMidpoint {
-  static constexpr std::string_view name = "implicit_midpoint";
-  static constexpr std::string_view summary = "implicit midpoint rule on the group, order 2, symmetric";
-  static constexpr Fits fits = Fits::without_constraints;
-  static constexpr std::array option_list{safeguard_option};
-
-  static std::string title(const OptionValues&) { return "implicit midpoint"; }
-  static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
-
-  struct Options {
-    bool safeguard = false;
-  };
-  static Options options(const OptionValues& values) {
-    return {.safeguard = values.boolean_or("safeguard", false)};
-  }
-
-  template <MechanicalSystem S, class Audit = NoAudit>
-  class Stepper;
-
-  template <MechanicalSystem S, class Audit, class Visitor>
-  static auto with_stepper(const Options& options, const S& system, Visitor&& visit) {
-    return visit(Stepper<S, Audit>(system, options));
-  }
-};
-
 // h_ of the base is half of the step size.
 template <MechanicalSystem S, class Audit>
-class ImplicitMidpoint::Stepper : public BasicStepper<S, Form::index3, Audit> {
+class ImplicitMidpointStepper : public BasicStepper<S, Form::index3, Audit> {
   using Base = BasicStepper<S, Form::index3, Audit>;
 
  public:
@@ -63,8 +38,8 @@ class ImplicitMidpoint::Stepper : public BasicStepper<S, Form::index3, Audit> {
   int steps() const { return 1; }
   int starting_points() const { return 1; }
 
-  Stepper(const S& system, const Options& options)
-      : Base(system, options.safeguard), changes_(3, zero_velocity(system)) {}
+  ImplicitMidpointStepper(const S& system, bool safeguard)
+      : Base(system, safeguard), changes_(3, zero_velocity(system)) {}
 
   // From q_0 and v_0, with v'_0 for a prediction.
   StepResult start(const T& h, std::span<const SolutionPoint<S>> points) {
@@ -77,17 +52,10 @@ class ImplicitMidpoint::Stepper : public BasicStepper<S, Form::index3, Audit> {
   }
 
   StepResult step() {
-    if constexpr (inlines_all<S>) {
-      return step_inlined();
-    } else {
-      return take_step();
-    }
+    return inlined_step<S>([this] { return take_step(); });
   }
 
  private:
-  // In double all but the kernel's solve() is inlined: what is passed through memory stalls the processor.
-  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
-
   StepResult take_step() {
     const T t = t_;
     const Configuration<S> q = q_;
@@ -124,6 +92,24 @@ class ImplicitMidpoint::Stepper : public BasicStepper<S, Form::index3, Audit> {
 
   History<Velocity<S>, 3> changes_;  // v'_w h / 2 of the steps before: for the prediction
   Velocity<S> first_change_;         // the same of the first step
+};
+
+struct ImplicitMidpoint {
+  static constexpr std::string_view name = "implicit_midpoint";
+  static constexpr std::string_view summary = "implicit midpoint rule on the group, order 2, symmetric";
+  static constexpr Fits fits = Fits::without_constraints;
+  static constexpr std::array option_list{safeguard_option};
+
+  static std::string title(const OptionValues&) { return "implicit midpoint"; }
+  static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
+
+  struct Options : SafeguardOptions {};
+  static Options options(const OptionValues& values) { return {safeguard_options(values)}; }
+
+  template <MechanicalSystem S, class Audit, class Visitor>
+  static auto with_stepper(const Options& options, const S& system, Visitor&& visit) {
+    return visit(ImplicitMidpointStepper<S, Audit>(system, options.safeguard));
+  }
 };
 
 }  // namespace liebench

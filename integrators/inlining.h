@@ -13,4 +13,15 @@ template <MechanicalSystem S>
 inline constexpr bool inlines_all =
     DenseSystem<S>&& std::is_same_v<typename S::Scalar, double> && !detail::sanitized;
 
+// step() with all that it calls inlined, where that pays, but for what is noinline (the solve() of the kernel): what is
+// passed through memory stalls the processor.
+template <MechanicalSystem S, class Step>
+auto inlined_step(const Step& step) {
+  if constexpr (inlines_all<S>) {
+    return detail::flattened(step);
+  } else {
+    return step();
+  }
+}
+
 }  // namespace liebench

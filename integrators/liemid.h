@@ -10,74 +10,33 @@
 #include "integrators/momentum_stepper.h"
 #include "integrators/option.h"
 
-// LIEMID [Krysl 2005, Explicit momentum-conserving integrator for dynamics of rigid bodies approximating the midpoint Lie
-// algorithm], for rotations and, with Ad(exp(u~))^T = exp(ad(u)^T) for exp(-u), any group: the forces kick the momentum at both ends of a
-// step, and between them moves a free body, by the midpoint rule that keeps its spatial momentum,
+// LIEMID [Krysl 2005, Explicit momentum-conserving integrator for dynamics of rigid bodies approximating the midpoint
+// Lie algorithm], for rotations and, with Ad(exp(u~))^T = exp(ad(u)^T) where he has exp(-u~), for any group: the forces
+// kick the momentum at both ends of a step, and between them a free body moves by the midpoint rule that keeps its
+// spatial momentum,
 //
 //   P = p_n - h/2 f(q_n)
 //   M w = Ad(exp(h w~ / 2))^T P,   q_{n+1} = q_n o exp(h w~)
 //   p_{n+1} = Ad(exp(h w~))^T P - h/2 f(q_{n+1}),   p = M v
 //
-// with f of integrators/momentum_equation.h: one_step. The original, half_steps, moves the free body by two steps of h / 2.
-// Both are symmetric, where f does not depend on v, and keep the spatial momentum to round-off where f = 0.
+// with f of integrators/momentum_equation.h: one_step. The original, half_steps, moves the free body by two steps of
+// h / 2. Both are symmetric, where f does not depend on v, and keep the spatial momentum to round-off where f = 0.
 
 namespace liebench {
 
-struct Liemid {
-  static constexpr std::string_view name = "liemid";
-  static constexpr std::string_view summary =
-      "LIEMID of Krysl, order 2: keeps the spatial momentum of a free body; explicit in the forces";
-  static constexpr Fits fits = Fits::without_constraints;
-  static constexpr auto option_list = std::to_array<OptionInfo>({
-      {.name = "variant",
-       .kind = OptionKind::choice,
-       .fallback = 0,
-       .choices = {"one_step", "half_steps"},
-       .meaning = "between two kicks of the forces one step of the midpoint rule, or two of half the size"},
-  });
-
-  enum class Variant { one_step, half_steps };
-
-  static std::string title(const OptionValues& values) {
-    return values.choice("variant") == "half_steps" ? "LIEMID, two half steps" : "LIEMID";
-  }
-  static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
-
-  struct Options {
-    Variant variant = Variant::one_step;
-  };
-  static Options options(const OptionValues& values) {
-    return {values.choice("variant") == "half_steps" ? Variant::half_steps : Variant::one_step};
-  }
-
-  template <MechanicalSystem S, class Audit = NoAudit>
-  class Stepper;
-
-  template <MechanicalSystem S, class Audit, class Visitor>
-  static auto with_stepper(const Options& options, const S& system, Visitor&& visit) {
-    return visit(Stepper<S, Audit>(system, options));
-  }
-};
-
 template <MechanicalSystem S, class Audit>
-class Liemid::Stepper : public MomentumStepper<S, Audit, AdjointTransport> {
+class LiemidStepper : public MomentumStepper<S, Audit, AdjointTransport> {
   using Base = MomentumStepper<S, Audit, AdjointTransport>;
 
  public:
   using Base::system;
   using typename Base::T;
 
-  Stepper(const S& system, const Options& options)
-      : Base(system),
-        parts_(options.variant == Variant::half_steps ? 2 : 1),
-        changes_{{{3, zero_velocity(system)}, {3, zero_velocity(system)}}} {}
+  LiemidStepper(const S& system, int parts)
+      : Base(system), parts_(parts), changes_{{{3, zero_velocity(system)}, {3, zero_velocity(system)}}} {}
 
   StepResult step() {
-    if constexpr (inlines_all<S>) {
-      return step_inlined();
-    } else {
-      return take_step();
-    }
+    return inlined_step<S>([this] { return take_step(); });
   }
 
  private:
@@ -86,8 +45,6 @@ class Liemid::Stepper : public MomentumStepper<S, Audit, AdjointTransport> {
   using Base::q_;
   using Base::t_;
   using Base::velocity_;
-
-  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
 
   StepResult take_step() {
     const T width = h_ / T(double(parts_)), t = t_ + h_, half = h_ / T(2.0);
@@ -127,6 +84,39 @@ class Liemid::Stepper : public MomentumStepper<S, Audit, AdjointTransport> {
   int parts_;
   // d of each part of the steps before: for the prediction.
   std::array<History<Velocity<S>, 3>, 2> changes_;
+};
+
+struct Liemid {
+  static constexpr std::string_view name = "liemid";
+  static constexpr std::string_view summary =
+      "LIEMID of Krysl, order 2: keeps the spatial momentum of a free body; explicit in the forces";
+  static constexpr Fits fits = Fits::without_constraints;
+  static constexpr auto option_list = std::to_array<OptionInfo>({
+      {.name = "variant",
+       .kind = OptionKind::choice,
+       .fallback = 0,
+       .choices = {"one_step", "half_steps"},
+       .meaning = "between two kicks of the forces one step of the midpoint rule, or two of half the size"},
+  });
+
+  static std::string title(const OptionValues& values) {
+    return values.choice("variant") == "half_steps" ? "LIEMID, two half steps" : "LIEMID";
+  }
+  static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
+
+  enum class Variant { one_step, half_steps };
+  struct Options {
+    Variant variant = Variant::one_step;
+  };
+  static Options options(const OptionValues& values) {
+    return {values.choice("variant") == "half_steps" ? Variant::half_steps : Variant::one_step};
+  }
+
+  template <MechanicalSystem S, class Audit, class Visitor>
+  static auto with_stepper(const Options& options, const S& system, Visitor&& visit) {
+    const int parts = options.variant == Variant::half_steps ? 2 : 1;
+    return visit(LiemidStepper<S, Audit>(system, parts));
+  }
 };
 
 }  // namespace liebench

@@ -6,15 +6,16 @@
 #include "integrators/step_equation.h"
 #include "problems/system.h"
 
-// The equation of a step of the methods that balance the momentum p = M v. For a mass matrix that is constant (a left-invariant
-// kinetic energy) the equations of motion are those of Euler & Poincare,
+// The equation of a step of the methods that balance the momentum p = M v. For a mass matrix that is constant (a
+// left-invariant kinetic energy) the equations of motion are those of Euler & Poincare,
 //
 //   p' = ad(v)^T p - f - B(q)^T lambda,   f(t, q, v) = g(t, q, v) + ad(v)^T M v
 //
-// where f is what is left of g without its gyroscopic term, and so does not depend on v unless something dissipates. The methods
-// have the momentum at the middle of a step transported to its two ends,
+// where f is what is left of g without its gyroscopic term, and so does not depend on v unless something dissipates.
+// The methods have the momentum at the middle of a step transported to its two ends,
 //
-//   W(-h Dq)^T M Dq = p_n - kicks at q_n,   p_{n+1} = W(h Dq)^T M Dq - kicks at q_{n+1},   W(u) = I + ad(u) / 2 + O(u^2)
+//   W(-h Dq)^T M Dq = p_n - kicks at q_n,   p_{n+1} = W(h Dq)^T M Dq - kicks at q_{n+1},
+//   W(u) = I + ad(u) / 2 + O(u^2)
 //
 // with W(u) = T(u)^{-1} in variational integrators, and W(u) = Ad(exp(u~ / 2)) where the spatial momentum is kept.
 //
@@ -22,8 +23,8 @@
 //
 //   r = M d + known + (W(-h Dq)^T - I) M Dq + B(q_n)^T mu = 0,   Phi(q_{n+1}) / h = 0
 //
-// in differences: r is known to the round-off of h f and h ad(v)^T M v, not of M v. Unknowns (d, mu) and rows are scaled as in
-// StepEquation; the Newton matrix, to the first order in h,
+// in differences: r is known to the round-off of h f and h ad(v)^T M v, not of M v. Unknowns (d, mu) and rows are
+// scaled as in StepEquation; the Newton matrix, to the first order in h,
 //
 //   [ M + h C / 2    B(q_n)^T ]    C = dg/dv at Dq
 //   [ B T(h Dq)      0        ]

@@ -14,11 +14,12 @@
 
 namespace liebench {
 
-// What the methods of integrators/momentum_equation.h do alike: from q_0, v_0 (and v'_0, lambda_0 for a prediction). Of systems
-// with a mass matrix that is constant, which those of this program are.
+// What the methods of integrators/momentum_equation.h do alike: from q_0, v_0 (and v'_0, lambda_0 for a prediction).
+// Of systems with a mass matrix that is constant, which those of this program are.
 //
-// A force that depends on v beyond the gyroscopic term, f(t, q, v), is taken once for a point, at v = 2 Dq - v_n, which is v_{n+1} but
-// for O(h^2): the order stays 2, but the method is not symmetric then, and explicit in what dissipates.
+// A force that depends on v beyond the gyroscopic term, f(t, q, v), is taken once for a point, at v = 2 Dq - v_n,
+// which is v_{n+1} but for O(h^2): the order stays 2, but the method is not symmetric then, and explicit in what
+// dissipates.
 template <MechanicalSystem S, class Audit, class Transport>
 class MomentumStepper : public BasicStepper<S, Form::index3, Audit, MomentumEquation<S, Transport>> {
   using Base = BasicStepper<S, Form::index3, Audit, MomentumEquation<S, Transport>>;

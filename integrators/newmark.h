@@ -13,8 +13,8 @@
 //   q_{n+1} = q_n o exp(h Dq~),   Dq = v_n + h/4 (v'_n + v'_{n+1}),   v_{n+1} = v_n + h/2 (v'_n + v'_{n+1})
 //   M v'_{n+1} = -g
 //
-// [Simo & Vu-Quoc 1988; Bruels & Cardona 2010]: generalized-alpha with alpha_m = alpha_f = 0, where a_n = v'_n. With constraints it is
-// weakly unstable [Cardona & Geradin 1989].
+// [Simo & Vu-Quoc 1988; Bruels & Cardona 2010]: generalized-alpha with alpha_m = alpha_f = 0, where a_n = v'_n. With
+// constraints it is weakly unstable [Cardona & Geradin 1989].
 
 namespace liebench {
 
@@ -28,20 +28,14 @@ struct Newmark {
   static std::string title(const OptionValues&) { return "Newmark, beta = 1/4, gamma = 1/2"; }
   static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
 
-  struct Options {
-    bool safeguard = false;
-  };
-  static Options options(const OptionValues& values) {
-    return {.safeguard = values.boolean_or("safeguard", false)};
-  }
-
-  template <MechanicalSystem S, class Audit = NoAudit>
-  using Stepper = GeneralizedAlpha::Stepper<S, Form::index3, Audit>;
+  struct Options : SafeguardOptions {};
+  static Options options(const OptionValues& values) { return {safeguard_options(values)}; }
 
   template <MechanicalSystem S, class Audit, class Visitor>
   static auto with_stepper(const Options& options, const S& system, Visitor&& visit) {
-    using Parameters = GeneralizedAlphaParameters<typename S::Scalar>;
-    return visit(Stepper<S, Audit>(system, Parameters::average_acceleration(), options.safeguard));
+    using Stepper = GeneralizedAlpha::Stepper<S, Form::index3, Audit>;
+    const auto parameters = GeneralizedAlphaParameters<typename S::Scalar>::average_acceleration();
+    return visit(Stepper(system, parameters, options.safeguard));
   }
 };
 

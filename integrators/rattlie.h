@@ -11,59 +11,33 @@
 #include "integrators/option.h"
 #include "integrators/variational_stepper.h"
 
-// RATTLie [Hante & Arnold 2021, RATTLie: a variational Lie group integration scheme for constrained mechanical systems], the
-// variational integrator of order 2 of the discrete Lagrangian with the kinetic energy of a constant velocity Dq in a step:
+// RATTLie [Hante & Arnold 2021, RATTLie: a variational Lie group integration scheme for constrained mechanical
+// systems], the variational integrator of order 2 of the discrete Lagrangian with the kinetic energy of a constant
+// velocity Dq in a step:
 //
 //   T^{-T}(-h Dq) M Dq + h/2 f(q_n) + h/2 B(q_n)^T lambda^+_n = p_n,   q_{n+1} = q_n o exp(h Dq~),   Phi(q_{n+1}) = 0
 //   p_{n+1} = T^{-T}(h Dq) M Dq - h/2 f(q_{n+1}) - h/2 B(q_{n+1})^T lambda^-_{n+1},   B(q_{n+1}) v_{n+1} = 0,   p = M v
 //   lambda_n = (lambda^+_n + lambda^-_n) / 2
 //
 // with f of integrators/momentum_equation.h. Both constraints hold in every step, and lambda has no transient phase.
-// Without constraints it is the Lie group method of Stoermer and Verlet. Symmetric and symplectic, where f does not depend on v.
-// lambda_{n+1} takes the first line of the step that follows: a step ends with it, and fails where that does.
+// Without constraints it is the Lie group method of Stoermer and Verlet. Symmetric and symplectic, where f does not
+// depend on v. lambda_{n+1} takes the first line of the step that follows: a step ends with it, and fails where that
+// does.
 
 namespace liebench {
 
-struct Rattlie {
-  static constexpr std::string_view name = "rattlie";
-  static constexpr std::string_view summary =
-      "RATTLie of Hante & Arnold, order 2: variational, with the constraint and its hidden one; Stoermer & "
-      "Verlet's "
-      "method where there is none";
-  static constexpr Fits fits = Fits::every_system;
-  static constexpr std::array<OptionInfo, 0> option_list{};
-
-  static std::string title(const OptionValues&) { return "RATTLie"; }
-  static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
-
-  struct Options {};
-  static Options options(const OptionValues&) { return {}; }
-
-  template <MechanicalSystem S, class Audit = NoAudit>
-  class Stepper;
-
-  template <MechanicalSystem S, class Audit, class Visitor>
-  static auto with_stepper(const Options&, const S& system, Visitor&& visit) {
-    return visit(Stepper<S, Audit>(system));
-  }
-};
-
 template <MechanicalSystem S, class Audit>
-class Rattlie::Stepper : public VariationalStepper<S, Audit> {
+class RattlieStepper : public VariationalStepper<S, Audit> {
   using Base = VariationalStepper<S, Audit>;
 
  public:
   using Base::system;
   using typename Base::T;
 
-  explicit Stepper(const S& system) : Base(system) {}
+  explicit RattlieStepper(const S& system) : Base(system) {}
 
   StepResult step() {
-    if constexpr (inlines_all<S>) {
-      return step_inlined();
-    } else {
-      return take_step();
-    }
+    return inlined_step<S>([this] { return take_step(); });
   }
 
  private:
@@ -77,8 +51,6 @@ class Rattlie::Stepper : public VariationalStepper<S, Audit> {
   using Base::t_;
   using Base::velocity_;
   using typename Base::Solution;
-
-  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
 
   StepResult take_step() {
     if (!is_ahead_) {
@@ -104,7 +76,8 @@ class Rattlie::Stepper : public VariationalStepper<S, Audit> {
     return {};
   }
 
-  // [M B^T; B 0] [v_{n+1} - Dq; h lambda^-_{n+1} / 2] = [kicks; -(B Dq + Phi_t)] at q_{n+1}, and the first line of the next step.
+  // [M B^T; B 0] [v_{n+1} - Dq; h lambda^-_{n+1} / 2] = [kicks; -(B Dq + Phi_t)] at q_{n+1}, and the first line of
+  // the next step.
   StepResult project_and_look_ahead(const T& t, const Configuration<S>& q, const Velocity<S>& kicks,
                                     Velocity<S>& v, const Velocity<S>& f) requires ConstrainedSystem<S> {
     const Multipliers<S> rate = -constraint_rate(system(), t, q, v);
@@ -122,6 +95,27 @@ class Rattlie::Stepper : public VariationalStepper<S, Audit> {
     Base::move_to(t, q, v, f);
     ahead_ = next;
     return result;
+  }
+};
+
+struct Rattlie {
+  static constexpr std::string_view name = "rattlie";
+  static constexpr std::string_view summary =
+      "RATTLie of Hante & Arnold, order 2: variational, with the constraint and its hidden one; Stoermer & "
+      "Verlet's "
+      "method where there is none";
+  static constexpr Fits fits = Fits::every_system;
+  static constexpr std::array<OptionInfo, 0> option_list{};
+
+  static std::string title(const OptionValues&) { return "RATTLie"; }
+  static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
+
+  struct Options {};
+  static Options options(const OptionValues&) { return {}; }
+
+  template <MechanicalSystem S, class Audit, class Visitor>
+  static auto with_stepper(const Options&, const S& system, Visitor&& visit) {
+    return visit(RattlieStepper<S, Audit>(system));
   }
 };
 

@@ -15,36 +15,14 @@
 //   T^{-T}(-h Dq) M Dq + h/2 f(q_n) + h/2 B(q_n)^T lambda_n = p_n,   q_{n+1} = q_n o exp(h Dq~),   Phi(q_{n+1}) = 0
 //   p_{n+1} = T^{-T}(h Dq) M Dq - h/2 f(q_{n+1}) - h/2 B(q_{n+1})^T lambda_{n+1},   p = M v
 //
-// The first line minus the second of the step before has no p_n: in exact arithmetic q_n and lambda_n are those of RATTLie from the
-// same values. v_n is another, for which B(q_n) v_n = O(h^2). As there, a step ends with the first line of the next.
+// The first line minus the second of the step before has no p_n: in exact arithmetic q_n and lambda_n are those of
+// RATTLie from the same values. v_n is another, for which B(q_n) v_n = O(h^2). As there, a step ends with the first
+// line of the next.
 
 namespace liebench {
 
-struct Shakelie {
-  static constexpr std::string_view name = "shakelie";
-  static constexpr std::string_view summary =
-      "SHAKELie of Hante & Arnold, order 2: RATTLie without the projection of velocities on the hidden "
-      "constraint";
-  static constexpr Fits fits = Fits::with_constraints;
-  static constexpr std::array<OptionInfo, 0> option_list{};
-
-  static std::string title(const OptionValues&) { return "SHAKELie"; }
-  static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
-
-  struct Options {};
-  static Options options(const OptionValues&) { return {}; }
-
-  template <MechanicalSystem S, class Audit = NoAudit>
-  class Stepper;
-
-  template <MechanicalSystem S, class Audit, class Visitor>
-  static auto with_stepper(const Options&, const S& system, Visitor&& visit) {
-    return visit(Stepper<S, Audit>(system));
-  }
-};
-
 template <MechanicalSystem S, class Audit>
-class Shakelie::Stepper : public VariationalStepper<S, Audit> {
+class ShakelieStepper : public VariationalStepper<S, Audit> {
   static_assert(ConstrainedSystem<S>);
   using Base = VariationalStepper<S, Audit>;
 
@@ -52,14 +30,10 @@ class Shakelie::Stepper : public VariationalStepper<S, Audit> {
   using Base::system;
   using typename Base::T;
 
-  explicit Stepper(const S& system) : Base(system) {}
+  explicit ShakelieStepper(const S& system) : Base(system) {}
 
   StepResult step() {
-    if constexpr (inlines_all<S>) {
-      return step_inlined();
-    } else {
-      return take_step();
-    }
+    return inlined_step<S>([this] { return take_step(); });
   }
 
  private:
@@ -69,8 +43,6 @@ class Shakelie::Stepper : public VariationalStepper<S, Audit> {
   using Base::lambda_;
   using Base::t_;
   using typename Base::Solution;
-
-  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
 
   StepResult take_step() {
     if (!is_ahead_) {
@@ -100,6 +72,26 @@ class Shakelie::Stepper : public VariationalStepper<S, Audit> {
     Base::move_to(t, q, v, f);
     ahead_ = next;
     return result;
+  }
+};
+
+struct Shakelie {
+  static constexpr std::string_view name = "shakelie";
+  static constexpr std::string_view summary =
+      "SHAKELie of Hante & Arnold, order 2: RATTLie without the projection of velocities on the hidden "
+      "constraint";
+  static constexpr Fits fits = Fits::with_constraints;
+  static constexpr std::array<OptionInfo, 0> option_list{};
+
+  static std::string title(const OptionValues&) { return "SHAKELie"; }
+  static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
+
+  struct Options {};
+  static Options options(const OptionValues&) { return {}; }
+
+  template <MechanicalSystem S, class Audit, class Visitor>
+  static auto with_stepper(const Options&, const S& system, Visitor&& visit) {
+    return visit(ShakelieStepper<S, Audit>(system));
   }
 };
 

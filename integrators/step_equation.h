@@ -118,8 +118,8 @@ class StepEquation {
     }
   }
 
-  // The Newton matrix at the point, with the derivatives of the closure there. With explicit forces K is no part of it, and B^T that
-  // at q_n.
+  // The Newton matrix at the point, with the derivatives of the closure there. With explicit forces K is no part of
+  // it, and B^T that at q_n.
   template <class Matrix, class Derivative, bool explicit_forces>
   static void jacobian(const S& system, const T& t, const T& h, const Configuration<S>& q_n, const Point& p,
                        const Unknowns& z, const ClosureDerivatives<Derivative, explicit_forces>& closure,

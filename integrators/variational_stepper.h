@@ -4,9 +4,9 @@
 
 namespace liebench {
 
-// The step equation of RATTLie and SHAKELie [Hante & Arnold 2021], solved from (q_n, v_n) or from the increment before: q_{n+1} and the
-// impulse of the constraints at q_n. Where there are constraints lambda_n takes two impulses, before and behind q_n: their
-// steppers are one such solution ahead.
+// The step equation of RATTLie and SHAKELie [Hante & Arnold 2021], solved from (q_n, v_n) or from the increment
+// before: q_{n+1} and the impulse of the constraints at q_n. Where there are constraints lambda_n takes two impulses,
+// before and behind q_n: their steppers are one such solution ahead.
 template <MechanicalSystem S, class Audit>
 class VariationalStepper : public MomentumStepper<S, Audit, VariationalTransport> {
   using Base = MomentumStepper<S, Audit, VariationalTransport>;
@@ -15,11 +15,13 @@ class VariationalStepper : public MomentumStepper<S, Audit, VariationalTransport
   using Base::system;
   using typename Base::T;
 
+  StepResult start(const T& h, std::span<const SolutionPoint<S>> points) {
+    is_ahead_ = false;
+    return Base::start(h, points);
+  }
+
  protected:
-  using Base::force_;
   using Base::h_;
-  using Base::q_;
-  using Base::t_;
   using Base::velocity_;
   using typename Base::Closure;
 

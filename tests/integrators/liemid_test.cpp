@@ -13,9 +13,9 @@
 #include "groups/se3.h"
 #include "problems/heavy_top.h"
 #include "tests/support/observed_order.h"
-#include "tests/support/small_systems.h"
 #include "tests/support/steppers.h"
 #include "tests/support/time_reversal.h"
+#include "tests/support/verlet.h"
 
 namespace liebench::liemid_test {
 namespace {
@@ -35,7 +35,8 @@ TEST(Liemid, ComesBackInReversedTime) {
   for (const auto variant : variants) expect_time_reversal<Liemid, HeavyTopSO3<double>>({variant});
 }
 
-// Krysl's equations for rotations, by rotation matrices of Eigen and fixed points: exp(-h w / 2) P is turned back by h w / 2.
+// Krysl's equations for rotations, by rotation matrices of Eigen and fixed points: exp(-h w / 2) P is turned back by
+// h w / 2.
 class KryslSteps {
  public:
   using S = HeavyTopSO3<double>;
@@ -204,27 +205,7 @@ TEST(Liemid, KeepsLinearAndAngularMomentumOfAFreeRigidMotion) {
 }
 
 TEST(Liemid, IsVerletsMethodInALinearSpace) {
-  // In which nothing turns the momentum of the free body.
-  using S = Oscillators<double, 2>;
-  const S system;
-  constexpr double h = 1.0 / 16;
-  for (const auto variant : variants) {
-    Eigen::Vector2d q = system.initial_configuration(), v = system.initial_velocity();
-    const std::array points{SolutionPoint<S>{0.0, q, v, Eigen::Vector2d::Zero(), {}}};
-    const auto stepper = make_stepper<Liemid, S>({variant}, system);
-    ASSERT_EQ(stepper->start(h, points).outcome, Outcome::ok);
-    const Eigen::Matrix2d W = system.mass_matrix(q).inverse();
-    Eigen::Vector2d f = system.force(0.0, q, v);
-    for (int step = 1; step <= 64; ++step) {
-      const Eigen::Vector2d middle = v - h / 2 * W * f;
-      q += h * middle;
-      f = system.force(step * h, q, 2 * middle - v);
-      v = middle - h / 2 * W * f;
-      ASSERT_EQ(stepper->step().outcome, Outcome::ok);
-      ASSERT_LE((stepper->configuration() - q).norm(), 1e-14) << step;
-      ASSERT_LE((stepper->velocity() - v).norm(), 1e-14) << step;
-    }
-  }
+  for (const auto variant : variants) expect_verlets_method<Liemid>({variant});
 }
 
 TEST(Liemid, DoesNotFitAConstrainedProblem) {

@@ -98,8 +98,8 @@ TEST(Newmark, StartsFromTheAccelerationWithoutAnySolution) {
   const S system(p);
   const HeavyTopMotion motion(p, 0.1);
   const std::vector<SolutionPoint<S>> points{motion.point(system, Extended(0.0))};
-  Newmark::Stepper<S, KernelAudit> stepper(system, GeneralizedAlphaParameters<double>::average_acceleration(),
-                                           false);
+  GeneralizedAlpha::Stepper<S, Form::index3, KernelAudit> stepper(
+      system, GeneralizedAlphaParameters<double>::average_acceleration(), false);
   ASSERT_EQ(stepper.start(0x1p-6, points).outcome, Outcome::ok);
   EXPECT_EQ(stepper.audit().solves, 0u);
 }

@@ -15,13 +15,14 @@
 #include "tests/support/small_systems.h"
 #include "tests/support/steppers.h"
 #include "tests/support/time_reversal.h"
+#include "tests/support/verlet.h"
 
 namespace liebench::rattlie_test {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-// --- orders -----------------------------------------------------------------------------------------------------------------
+// --- orders ------------------------------------------------------------------------------------------------
 
 TEST(Rattlie, HasOrderTwoWithoutConstraints) {
   const Errors order = observed_orders<Rattlie, ExtendedSO3>({});
@@ -46,7 +47,7 @@ TEST(Rattlie, HasOrderTwoOnRigidMotions) {
   EXPECT_NEAR(order.largest_lambda, 2, order_tolerance);
 }
 
-// --- the equations, from the states alone -------------------------------------------------------------------------------------
+// --- the equations, from the states alone ------------------------------------------------------------------
 
 template <MechanicalSystem S>
 struct State {
@@ -111,7 +112,8 @@ TEST(Rattlie, SatisfiesItsEquationsWithoutConstraints) {
   expect_the_free_equations<HeavyTopS3<double>>();
 }
 
-// Both impulses at q_n together are h lambda_n: the balance of two steps has no v_n. Of the projection what B^T does not make.
+// Both impulses at q_n together are h lambda_n: the balance of two steps has no v_n. Of the projection what B^T does
+// not make.
 template <class S>
 void expect_the_constrained_equations() {
   const HeavyTopParameters p = unsymmetric_top(1);
@@ -144,7 +146,7 @@ TEST(Rattlie, SatisfiesItsEquationsWithConstraints) {
   expect_the_constrained_equations<HeavyTopUDQ<double>>();
 }
 
-// --- symmetry ---------------------------------------------------------------------------------------------------------------
+// --- symmetry ----------------------------------------------------------------------------------------------
 
 TEST(Rattlie, ComesBackInReversedTime) {
   expect_time_reversal<Rattlie, HeavyTopSO3<double>>({});
@@ -152,28 +154,10 @@ TEST(Rattlie, ComesBackInReversedTime) {
   expect_time_reversal<Rattlie, HeavyTopSE3<double>>({});
 }
 
-// --- linear spaces ------------------------------------------------------------------------------------------------------------
+// --- linear spaces -----------------------------------------------------------------------------------------
 
-// Velocity Verlet, with a force that depends on v at v = 2 Dq - v_n.
 TEST(Rattlie, IsVerletsMethodInALinearSpace) {
-  using S = Oscillators<double, 2>;
-  const S system;
-  constexpr double h = 1.0 / 16;
-  Eigen::Vector2d q = system.initial_configuration(), v = system.initial_velocity();
-  const std::array points{SolutionPoint<S>{0.0, q, v, Eigen::Vector2d::Zero(), {}}};
-  const auto stepper = make_stepper<Rattlie, S>({}, system);
-  ASSERT_EQ(stepper->start(h, points).outcome, Outcome::ok);
-  const Eigen::Matrix2d W = system.mass_matrix(q).inverse();
-  Eigen::Vector2d f = system.force(0.0, q, v);
-  for (int step = 1; step <= 64; ++step) {
-    const Eigen::Vector2d middle = v - h / 2 * W * f;
-    q += h * middle;
-    f = system.force(step * h, q, 2 * middle - v);
-    v = middle - h / 2 * W * f;
-    ASSERT_EQ(stepper->step().outcome, Outcome::ok);
-    ASSERT_LE((stepper->configuration() - q).norm(), 1e-14) << step;
-    ASSERT_LE((stepper->velocity() - v).norm(), 1e-14) << step;
-  }
+  expect_verlets_method<Rattlie>({});
 }
 
 // The forces of damping leave the order at two.
@@ -240,7 +224,7 @@ TEST(Rattlie, IsRattleInALinearSpace) {
   }
 }
 
-// --- errors -----------------------------------------------------------------------------------------------------------------
+// --- errors ------------------------------------------------------------------------------------------------
 
 // Of the fast top at t = 1/2 s with h = 2^-12: the rotation vector between the solution and the exact one.
 template <class Method, class S>

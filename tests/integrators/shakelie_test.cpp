@@ -19,16 +19,13 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 TEST(Shakelie, HasOrderTwoFromTheFirstStepOn) {
   const Errors order = observed_orders<Shakelie, ExtendedR3xSO3>({});
-  EXPECT_NEAR(order.q, 2, order_tolerance);
-  EXPECT_NEAR(order.v, 2, order_tolerance);
-  EXPECT_NEAR(order.lambda, 2, order_tolerance);
-  EXPECT_NEAR(order.largest_q, 2, order_tolerance);
-  EXPECT_NEAR(order.largest_v, 2, order_tolerance);
-  EXPECT_NEAR(order.largest_lambda, 2, order_tolerance);
+  for (const double p :
+       {order.q, order.v, order.lambda, order.largest_q, order.largest_v, order.largest_lambda})
+    EXPECT_NEAR(p, 2, order_tolerance);
 }
 
-// q_n and lambda_n are those of RATTLie; the velocity is the one that p_{n+1} = T^{-T} M Dq - h/2 (f + B^T lambda) gives, and fulfils
-// the hidden constraint to O(h^2) only.
+// q_n and lambda_n are those of RATTLie; the velocity is the one that p_{n+1} = T^{-T} M Dq - h/2 (f + B^T lambda)
+// gives, and fulfils the hidden constraint to O(h^2) only.
 template <class S>
 void expect_rattlie_but_for_the_velocity() {
   using G = typename S::Group;

@@ -235,7 +235,8 @@ TYPED_TEST_P(MethodLaws, TheSameBitsTwiceAndWithAnAudit) {
     EXPECT_EQ(audit.factorizations_start, start.factorizations_start) << methods[i].text();
     EXPECT_GE(audit.solves - start.solves, std::uint64_t(steps)) << methods[i].text();
     if (audit.iterations == 0) continue;  // an explicit method
-    // Every iteration is a back-substitution; methods that have momenta, or project, solve for velocities in every step, too.
+    // Every iteration is a back-substitution; methods that have momenta, or project, solve for velocities in every
+    // step, too.
     const std::uint64_t others = audit.solves - start.solves - audit.iterations;
     EXPECT_EQ(others % std::uint64_t(steps), 0u) << methods[i].text();
     EXPECT_LE(others, std::uint64_t(2 * steps)) << methods[i].text();

@@ -15,9 +15,10 @@
 
 namespace liebench {
 
-// A symmetric method comes back: so many steps of h, and as many of -h from where they end, are no step at all, but for round-off.
-// It is that of every step, eps (|v| + |q| / h) in v (increments are known to eps |q| / h where a constraint gives them), through a
-// matrix of condition below a hundred. A method that is not symmetric is off by its local errors, (h |v|)^3 |v| a step.
+// A symmetric method comes back: so many steps of h, and as many of -h from where they end, are no step at all, but
+// for round-off. It is that of every step, eps (|v| + |q| / h) in v (increments are known to eps |q| / h where a
+// constraint gives them), through a matrix of condition below a hundred. A method that is not symmetric is off by its
+// local errors, (h |v|)^3 |v| a step.
 template <class Method, MechanicalSystem S>
 void expect_time_reversal(const typename Method::Options& options) {
   constexpr double eps = std::numeric_limits<double>::epsilon();
