@@ -159,9 +159,7 @@ class FaltinsenAdamsStepper : public BasicExplicitStepper<S, Audit> {
 struct FaltinsenAdams {
   static constexpr std::string_view name = "faltinsen_adams";
   static constexpr std::string_view summary =
-      "explicit k-step Adams-Bashforth method of Faltinsen, Marthinsen & Munthe-Kaas in canonical "
-      "coordinates that "
-      "move with the step";
+      "explicit k-step Adams-Bashforth method of Faltinsen, Marthinsen & Munthe-Kaas in moving coordinates";
   static constexpr Fits fits = Fits::without_constraints;
   static constexpr auto option_list = std::to_array<OptionInfo>({
       steps_option(most_adams_steps),

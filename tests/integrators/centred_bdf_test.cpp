@@ -118,7 +118,7 @@ TEST(CentredBdf, HasOrderKInAllComponentsFromTheFirstStepInTheStabilizedForm) {
 // --- outcomes and options --------------------------------------------------------------------------------
 
 TEST(CentredBdf, StopsWhereTheStepsOfALogarithmTogetherTurnByPiOrMore) {
-  // One step or k: v itself is of no logarithm where it is of k = 1.
+  // The longest logarithm spans k steps, the new one among them.
   for (int k = 1; k <= most_steps; ++k) expect_limit_of_spin<CentredBdf>({.k = k}, std::numbers::pi / k);
 }
 

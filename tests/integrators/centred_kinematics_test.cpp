@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "groups/extended.h"
 #include "integrators/centred_bdf.h"
