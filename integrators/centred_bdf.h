@@ -11,17 +11,18 @@
 #include "integrators/lie_correction.h"
 #include "integrators/option.h"
 
-// The k-step BDF method centred at the new point, k = 1, ..., 6, of order k: the classical method in canonical coordinates about
-// q_{n+1}, where the tangent operator is the identity,
+// The k-step BDF method centred at the new point, k = 1, ..., 6, of order k: the classical method in canonical
+// coordinates about q_{n+1}, where the tangent operator is the identity,
 //
 //   v_{n+1} = (1/h) sum_{i=1}^k alpha_i log(q_{n+1}^{-1} o q_{n+1-i}),   h v'_{n+1} = sum_{i=0}^k alpha_i v_{n+1-i}
 //
-// in the spirit of Faltinsen, Marthinsen & Munthe-Kaas 2001, whose coordinates are those about q_n (integrators/faltinsen_bdf.h).
-// Kinematic equation: integrators/centred_kinematics.h. The k steps of the longest logarithm turn by less than pi together.
+// in the spirit of Faltinsen, Marthinsen & Munthe-Kaas 2001, whose coordinates are those about q_n
+// (integrators/faltinsen_bdf.h). Kinematic equation: integrators/centred_kinematics.h. The k steps of the longest
+// logarithm turn by less than pi together.
 //
-// Index 3: Phi(q_{n+1}) = 0; order reduction of lambda in the transient phase and its cure by modified starting velocities
-// are those of BLieDF2nd, with the local error of this method. Stabilized index 2: B(q_n)^T eta_{n+1} joins Dq_n in the
-// kinematic equation, not in the update of q, and B(q_{n+1}) v_{n+1} = 0.
+// Index 3: Phi(q_{n+1}) = 0; order reduction of lambda in the transient phase and its cure by modified starting
+// velocities are those of BLieDF2nd, with the local error of this method. Stabilized index 2: B(q_n)^T eta_{n+1} joins
+// Dq_n in the kinematic equation, not in the update of q, and B(q_{n+1}) v_{n+1} = 0.
 
 namespace liebench {
 

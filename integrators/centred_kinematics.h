@@ -10,8 +10,8 @@
 #include "integrators/bdf_stepper.h"
 #include "integrators/recent_motions.h"
 
-// The kinematic equation of the BDF method in canonical coordinates about the new point: q(t) = q_{n+1} o exp(s~(t)), where
-// s(t_{n+1}) = 0 and T(0) = I, so that v_{n+1} is the derivative of s itself,
+// The kinematic equation of the BDF method in canonical coordinates about the new point: q(t) = q_{n+1} o exp(s~(t)),
+// where s(t_{n+1}) = 0 and T(0) = I, so that v_{n+1} is the derivative of s itself,
 //
 //   v_{n+1} = (1/h) sum_{i=1}^k alpha_i s_{n+1-i},   s_{n+1-i} = log(q_{n+1}^{-1} o q_{n+1-i}) = -L_i
 //   L_i = log(P_i o exp(h Dq_n~)),   P_i = q_{n+1-i}^{-1} o q_n,   L_1 = h Dq_n
@@ -33,10 +33,11 @@ T leading_half(const T& x) {
     return T(double(static_cast<float>(to_double(x))));
 }
 
-// The logarithms are evaluated at a point next to d, and v_{n+1} at d by its derivative there: with b = h (d - point), the rest is of
-// the size of [b, [b, L_i]] / 12, and below their round-off, eps |L_i|, where |b|^2 is below eps. So a change of d by some units of
-// its last place changes v by as many, and not by those of the logarithms, which would act on the velocity like a force
-// eps |v| / h in every step. The point is the prediction of d, or, where that is too far away, d to half of its digits beyond it.
+// The logarithms are evaluated at a point next to d, and v_{n+1} at d by its derivative there: with b = h (d - point),
+// the rest is of the size of [b, [b, L_i]] / 12, and below their round-off, eps |L_i|, where |b|^2 is below eps. So a
+// change of d by some units of its last place changes v by as many, and not by those of the logarithms, which would act
+// on the velocity like a force eps |v| / h in every step. The point is the prediction of d, or, where that is too far
+// away, d to half of its digits beyond it.
 template <MechanicalSystem S>
 class CentredClosure {
  public:
@@ -152,8 +153,8 @@ class CentredKinematics {
   }
   void accept(const Configuration<S>& motion) { motions_.push(motion); }
 
-  // The logarithms are those of the motion while it turns by less than pi over all of them: the k - 1 steps so far, and the new
-  // one as it is predicted.
+  // The logarithms are those of the motion while it turns by less than pi over all of them: the k - 1 steps so far, and
+  // the new one as it is predicted.
   bool defined(const BdfState<S>& state) const {
     const Velocity<S> next = state.increment + state.predicted_change();
     return to_double(state.turn(group_, state.k - 1)) + to_double(group_.rotation_angle(state.h * next)) <

@@ -11,8 +11,8 @@
 
 namespace liebench {
 
-// What every explicit method for q' = DL_q(e) v~, M(q) v' = -g(t, q, v) does alike: it holds the state and solves for v'. A stepper
-// adds what BasicStepper (integrators/basic_stepper.h) asks for.
+// What every explicit method for q' = DL_q(e) v~, M(q) v' = -g(t, q, v) does alike: it holds the state and solves for
+// v'. A stepper adds what BasicStepper (integrators/basic_stepper.h) asks for.
 template <MechanicalSystem S, class Audit>
 class BasicExplicitStepper {
  public:

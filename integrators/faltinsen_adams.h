@@ -15,15 +15,16 @@
 #include "integrators/runge_kutta_munthe_kaas.h"
 #include "integrators/runge_kutta_tableau.h"
 
-// The k-step Adams-Bashforth method of Faltinsen, Marthinsen & Munthe-Kaas (Applied Numerical Mathematics 39, 2001, 349-365), k = 1,
-// ..., 6, of order k: the classical method in canonical coordinates about q_n, which move with every step. With
-// q(t) = q_n o exp(u~(t)), u' = T^{-1}(u) v,
+// The k-step Adams-Bashforth method of Faltinsen, Marthinsen & Munthe-Kaas (Applied Numerical Mathematics 39, 2001,
+// 349-365), k = 1, ..., 6, of order k: the classical method in canonical coordinates about q_n, which move with every
+// step. With q(t) = q_n o exp(u~(t)), u' = T^{-1}(u) v,
 //
 //   u_{n+1} = h sum_{i=1}^k b_i T^{-1}(u_{n+1-i}) v_{n+1-i},   u_{n+1-i} = log(q_n^{-1} o q_{n+1-i}),  u_n = 0
 //   q_{n+1} = q_n o exp(u_{n+1}~),   v_{n+1} = v_n + h sum_{i=1}^k b_i v'_{n+1-i}
 //
-// u_{n-1} is minus the last u_{n+1}; the others are -log(q_{n+1-i}^{-1} o q_n), a product and a logarithm each, of which the last
-// spans k - 1 steps: together they turn by less than pi, where k > 2. One evaluation of the force a step.
+// u_{n-1} is minus the last u_{n+1}; the others are -log(q_{n+1-i}^{-1} o q_n), a product and a logarithm each, of
+// which the last spans k - 1 steps: together they turn by less than pi, where k > 2. One evaluation of the force a
+// step.
 
 namespace liebench {
 
@@ -159,9 +160,7 @@ class FaltinsenAdamsStepper : public BasicExplicitStepper<S, Audit> {
 struct FaltinsenAdams {
   static constexpr std::string_view name = "faltinsen_adams";
   static constexpr std::string_view summary =
-      "explicit k-step Adams-Bashforth method of Faltinsen, Marthinsen & Munthe-Kaas in canonical "
-      "coordinates that "
-      "move with the step";
+      "explicit k-step Adams-Bashforth method of Faltinsen, Marthinsen & Munthe-Kaas in moving coordinates";
   static constexpr Fits fits = Fits::without_constraints;
   static constexpr auto option_list = std::to_array<OptionInfo>({
       steps_option(most_adams_steps),

@@ -7,8 +7,8 @@
 
 namespace liebench {
 
-// The motions of the last steps together, q_{n-j}^{-1} o q_n for j = 1, ..., count: each step is one product for each but the
-// first.
+// The motions of the last steps together, q_{n-j}^{-1} o q_n for j = 1, ..., count: each step is one product for each
+// but the first.
 template <MechanicalSystem S, int most>
 class RecentMotions {
  public:

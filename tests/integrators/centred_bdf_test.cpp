@@ -28,8 +28,8 @@ std::string text(const CentredBdf::Options& options) {
 
 // --- what one step is ------------------------------------------------------------------------------------
 
-// v_{n+1} = (1/h) sum_{i=1}^k alpha_i log(p^{-1} q_{n+1-i}) from the states alone, with p = q_n exp(h (Dq_n + extra)~): q_{n+1} but
-// for the auxiliary multiplier.
+// v_{n+1} = (1/h) sum_{i=1}^k alpha_i log(p^{-1} q_{n+1-i}) from the states alone, with p = q_n exp(h (Dq_n + extra)~):
+// q_{n+1} but for the auxiliary multiplier.
 template <MechanicalSystem S>
 class StepLaw : public BdfStepLaw<S> {
   using Base = BdfStepLaw<S>;
@@ -92,8 +92,8 @@ TEST(CentredBdf, HasOrderKInConfigurationAndVelocity) {
   }
 }
 
-// `transient` is the order of lambda over all steps. That of q is seen over all steps, too: for k = 6 its error at the end is next to a
-// zero (bliedf2nd_orders_test.cpp).
+// `transient` is the order of lambda over all steps. That of q is seen over all steps, too: for k = 6 its error at the
+// end is next to a zero (bliedf2nd_orders_test.cpp).
 void expect_constrained_orders(const CentredBdf::Options& options, int transient) {
   const Errors order = observed_orders<CentredBdf, ExtendedR3xSO3>(options);
   EXPECT_NEAR(order.largest_q, options.k, order_tolerance) << text(options);
@@ -118,7 +118,7 @@ TEST(CentredBdf, HasOrderKInAllComponentsFromTheFirstStepInTheStabilizedForm) {
 // --- outcomes and options --------------------------------------------------------------------------------
 
 TEST(CentredBdf, StopsWhereTheStepsOfALogarithmTogetherTurnByPiOrMore) {
-  // One step or k: v itself is of no logarithm where it is of k = 1.
+  // The longest logarithm spans k steps, the new one among them.
   for (int k = 1; k <= most_steps; ++k) expect_limit_of_spin<CentredBdf>({.k = k}, std::numbers::pi / k);
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "groups/extended.h"
 #include "integrators/centred_bdf.h"
@@ -110,8 +111,8 @@ void expect_values_of_the_equation() {
     for (const double distance : {0.0, unit, 1e-16, 1e-8, 1e-7, 1e-4, 0.1, 0.5}) {
       const auto d = (predicted + (distance * random.vector<3>()).eval().template cast<T>()).eval();
       const auto values = closure.at(d);
-      // Products of up to six rotations and their logarithms: 2 eps each, times alpha_i / h, together 60 / h (k = 6); and the derivative's
-      // rest, eps / 12 of each.
+      // Products of up to six rotations and their logarithms: 2 eps each, times alpha_i / h, together 60 / h (k = 6);
+      // and the derivative's rest, eps / 12 of each.
       const double tolerance = 16 * 60 * unit / 0.1;
       const auto expected = step.velocity(d);
       EXPECT_LE(to_double((values.velocity - expected).norm()), tolerance) << k << ' ' << distance;

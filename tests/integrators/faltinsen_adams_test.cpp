@@ -43,8 +43,8 @@ TEST(AdamsBashforth, IntegratesPolynomialsOfDegreeKMinusOneAndNoOthers) {
 
 // --- linear spaces: the classical method -----------------------------------------------------------------
 
-// y_{n+1} = y_n + h sum_{j<k} gamma_j nabla^j y'_n with the gamma_j of the generating function, sum_{i<=j} gamma_i / (j + 1 - i) = 1
-// [Hairer, Norsett & Wanner, Solving ODE I, III.1, (1.5), (1.7)].
+// y_{n+1} = y_n + h sum_{j<k} gamma_j nabla^j y'_n with the gamma_j of the generating function, sum_{i<=j} gamma_i / (j
+// + 1 - i) = 1 [Hairer, Norsett & Wanner, Solving ODE I, III.1, (1.5), (1.7)].
 template <int n>
 class TextbookAdams {
  public:

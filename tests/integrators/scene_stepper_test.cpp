@@ -31,6 +31,7 @@ std::vector<MethodOptions> some_methods() {
     methods.emplace_back(FaltinsenBdf::Options{.k = 3, .modified_start = modified, .form = form});
     methods.emplace_back(FaltinsenBdf::Options{
         .k = 4, .variant = FaltinsenBdf::Variant::bch, .modified_start = modified, .form = form});
+    methods.emplace_back(CentredBdf::Options{.k = 4, .modified_start = modified, .form = form});
   }
   methods.emplace_back(Rattlie::Options{});
   methods.emplace_back(Shakelie::Options{});

@@ -47,8 +47,9 @@ void expect_limit_of_spin(const typename Method::Options& options, double limit)
   EXPECT_EQ(outcome_of_spin<Method>(options, 1.01 * limit, 8), Outcome::rotation_too_large) << options.k;
 }
 
-// omega = omega_0 + a t about one axis, where every increment is the mean of omega over its step up to O(h^2): ends with
-// rotation_too_large at the first step for which a logarithm spans pi, of so many steps before the last point and `ahead` behind it.
+// omega = omega_0 + a t about one axis, where every increment is the mean of omega over its step up to O(h^2): ends
+// with rotation_too_large at the first step for which a logarithm spans pi, of so many steps before the last point and
+// `ahead` behind it.
 template <class Method>
 void expect_stop_where_logarithms_span_pi(const typename Method::Options& options, int before, int ahead) {
   using S = SpinningUp<double>;
