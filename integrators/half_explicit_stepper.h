@@ -27,12 +27,13 @@ namespace liebench {
 //   Theta'_i = T^{-1}(Theta_i) V_i
 //   M(Q_i) v'_i = -g(t_i, Q_i, V_i) - B(Q_i)^T Lambda_i,   B(Q_{i+1}) V_{i+1} + Phi_t(t_{i+1}, Q_{i+1}) = 0
 //
-// where the last line is linear in (v'_i, Lambda_i), for Q_{i+1} is known by then. The tableau says which row is (q_{n+1}, v_{n+1}), and
-// lambda_{n+1} = sum_i d_i Lambda_i. Where the last stage is at (q_{n+1}, v_{n+1}), v'_s is v'_1 of the next step.
+// where the last line is linear in (v'_i, Lambda_i), for Q_{i+1} is known by then. The tableau says which row is
+// (q_{n+1}, v_{n+1}), and lambda_{n+1} = sum_i d_i Lambda_i. Where the last stage is at (q_{n+1}, v_{n+1}), v'_s is
+// v'_1 of the next step.
 //
-// With `projection` a step ends with q_{n+1} <- q_{n+1} o exp(delta~), Phi(t_{n+1}, q_{n+1}) = 0, and v_{n+1} <- v_{n+1} + Dv on the
-// hidden constraint there, of the least |delta|_M and |Dv|_M. delta is of the size of the local error, so that M delta = B^T mu with B
-// before the change differs from the least one by O(|delta|^2).
+// With `projection` a step ends with q_{n+1} <- q_{n+1} o exp(delta~), Phi(t_{n+1}, q_{n+1}) = 0, and v_{n+1} <-
+// v_{n+1} + Dv on the hidden constraint there, of the least |delta|_M and |Dv|_M. delta is of the size of the local
+// error, so that M delta = B^T mu with B before the change differs from the least one by O(|delta|^2).
 template <MechanicalSystem S, class Audit, const auto& tableau>
 class HalfExplicitStepper {
  public:

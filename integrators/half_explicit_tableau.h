@@ -8,8 +8,9 @@
 
 namespace liebench {
 
-// Tableaus of half-explicit Runge-Kutta methods with an explicit first stage. Row i has the weights of the stage i; the row s those that
-// the last stage is solved with. The row `end` is the new value, where the multipliers are sum_i d_i Lambda_i.
+// Tableaus of half-explicit Runge-Kutta methods with an explicit first stage. Row i has the weights of the stage i; the
+// row s those that the last stage is solved with. The row `end` is the new value, where the multipliers are sum_i d_i
+// Lambda_i.
 template <std::size_t s>
 struct HalfExplicitTableau {
   static constexpr std::size_t stages = s;
@@ -25,7 +26,7 @@ struct HalfExplicitTableau {
   constexpr bool first_same_as_last() const { return end + 1 == s; }
 };
 
-// Three stages, order 3 [half_explicit.F90 of S. Hante; Arnold, Murua].
+// Three stages, order 3 [Arnold & Tumiotto 2024, half_explicit.F90].
 inline constexpr HalfExplicitTableau<3> herk_three{
     .a = {{{}, {{{1, 2}}}, {{{2, 9}, {4, 9}}}, {{{1, 4}, {}, {3, 4}}}}},
     .c = {{{}, {1, 2}, {2, 3}, {1, 1}}},
@@ -33,7 +34,7 @@ inline constexpr HalfExplicitTableau<3> herk_three{
     .d = {{{}, {-2, 1}, {3, 1}}},
     .orders = {3, 3, 2}};
 
-// Five stages, order 4; c_6 = (3 - sqrt(3)) / 6 [the same].
+// Five stages, order 4; c_6 = (3 - sqrt(3)) / 6 [ibidem].
 inline constexpr HalfExplicitTableau<5> herk_four{
     .a = {{{},
            {{{1, 1}}},

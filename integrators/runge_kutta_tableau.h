@@ -96,8 +96,8 @@ inline constexpr ExplicitTableau<7> butcher_six{
     .c = {{{}, {1, 3}, {2, 3}, {1, 3}, {1, 2}, {1, 2}, {1, 1}}},
     .order = 6};
 
-// sum_j w_j x_j over the first `count` weights of the row i of the tableau (row `stages`: b); what has the weight 0 is left out. Some
-// weight is not 0.
+// sum_j w_j x_j over the first `count` weights of the row i of the tableau (row `stages`: b); what has the weight 0 is
+// left out. Some weight is not 0.
 template <const auto& tableau, std::size_t i, std::size_t count, class Vector, std::size_t n>
 Vector combination(const std::array<Vector, n>& x) {
   using T = typename Vector::Scalar;

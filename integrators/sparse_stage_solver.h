@@ -13,8 +13,8 @@
 
 namespace liebench {
 
-// The linear systems of half-explicit stages of many bodies: one sparse matrix a stage, of one pattern. M depends on nothing and is
-// factorized once, for the first stage.
+// The linear systems of half-explicit stages of many bodies: one sparse matrix a stage, of one pattern. M depends on
+// nothing and is factorized once, for the first stage.
 template <BlockSystem S>
 class StageSolver<S> {
   using T = typename S::Scalar;

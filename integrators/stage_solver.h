@@ -14,7 +14,8 @@
 
 namespace liebench {
 
-// The linear systems of half-explicit stages, with the equations of motion at one configuration q and the constraints at another one,
+// The linear systems of half-explicit stages, with the equations of motion at one configuration q and the constraints
+// at another one,
 //
 //   [ M(q)     B(q)^T ] [ x ]   [ a ]
 //   [ B(next)  0      ] [ y ] = [ b ]
@@ -29,12 +30,13 @@ namespace liebench {
 //   factorize(system, q, next, audit)      Outcome::singular_matrix where the rows or M are
 //   solve(system, q, next, a, b, x, y, audit)
 //
-// with the q and next of the last shift() and take(). Solved in the scalar of the linear algebra, refined in that of the system.
+// with the q and next of the last shift() and take(). Solved in the scalar of the linear algebra, refined in that of
+// the system.
 template <MechanicalSystem S>
 class StageSolver;
 
-// By the Schur complement B(next) M^{-1} B(q)^T, l x l: the inverse of M, block by block, is formed once where M depends on nothing,
-// and B at each point once.
+// By the Schur complement B(next) M^{-1} B(q)^T, l x l: the inverse of M, block by block, is formed once where M
+// depends on nothing, and B at each point once.
 template <DenseSystem S>
 class StageSolver<S> {
   using T = typename S::Scalar;

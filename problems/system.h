@@ -59,8 +59,8 @@ concept ConstrainedSystem = MechanicalSystem<S> &&(S::constraints != 0);
 //   constraint_gradient(q)          B(q), l x m: D Phi(q) . (q w~) = B(q) w, eq. (18)
 //   constraint_gradient_derivative(q, v)   l x m: w -> Z(q)(v, w) = D_q(B(q) v) . (q w~)
 //
-// the last two where there are constraints. Flag: `constant_mass` (M does not depend on q). Where M is block diagonal, with blocks of one
-// size that divides m, the system may say so: `mass_block`.
+// the last two where there are constraints. Flag: `constant_mass` (M does not depend on q). Where M is block diagonal,
+// with blocks of one size that divides m, the system may say so: `mass_block`.
 template <class S>
 concept DenseSystem = MechanicalSystem<S> && LieGroup<typename S::Group> &&
     requires(const S& s, const typename S::Scalar& t, const typename S::Group::Element& q,

@@ -210,8 +210,9 @@ TEST(HalfExplicit, HasItsOrdersOnTheConstrainedTop) {
   }
 }
 
-// A particle without forces at the distance r = (1 + t / 2)^{-1/2} from the origin, in Cartesian coordinates, Phi = (x^2 + y^2 - r^2) / 2,
-// or in polar ones, Phi = r - r(t), whose mass matrix depends on q. Its angle is t + t^2 / 4, for r^2 phi' = 1 is conserved.
+// A particle without forces at the distance r = (1 + t / 2)^{-1/2} from the origin, in Cartesian coordinates, Phi =
+// (x^2 + y^2 - r^2) / 2, or in polar ones, Phi = r - r(t), whose mass matrix depends on q. Its angle is t + t^2 / 4,
+// for r^2 phi' = 1 is conserved.
 template <Scalar T, bool polar>
 class ReeledInParticle {
  public:
@@ -394,8 +395,9 @@ TEST(HalfExplicit, DriftsFromTheConstraintByTheErrorOfTheMethod) {
 }
 
 TEST(HalfExplicit, DoesNotDriftWhereTheConstraintIsASubgroup) {
-  // Rotations about the tip are one of SE(3): B(q) is the same in all of them, and where every V_i fulfils B V_i = 0, so does every
-  // Theta_i. V_2 does where v'_1 is v'_s of the step before, and the given multipliers of the first step are consistent.
+  // Rotations about the tip are one of SE(3): B(q) is the same in all of them, and where every V_i fulfils B V_i = 0,
+  // so does every Theta_i. V_2 does where v'_1 is v'_s of the step before, and the given multipliers of the first step
+  // are consistent.
   for (const Tableau tableau : {Tableau::herk4, Tableau::hedop5}) {
     EXPECT_LE((largest_drift<HeavyTopSE3, double>({tableau}, 128).phi), 128 * 4 * eps) << int(tableau);
     EXPECT_LE((largest_drift<HeavyTopSE3, Extended>({tableau}, 128).phi), 128 * 4 * 5e-32) << int(tableau);
@@ -420,8 +422,8 @@ TEST(HalfExplicit, ProjectsByTheLeastChangeInTheNormOfTheMass) {
     const Velocity<S> delta = S::Group::log(S::Group::compose(S::Group::inverse(from), to));
     const Velocity<S> change = steppers[1]->velocity() - steppers[0]->velocity();
     ASSERT_GE(to_double(delta.norm()), 1e-12);
-    // M-orthogonal to what the constraint allows, at the configuration from which the change begins. The angle of a difference as small
-    // as delta is known to 1e-32 / |delta|.
+    // M-orthogonal to what the constraint allows, at the configuration from which the change begins. The angle of a
+    // difference as small as delta is known to 1e-32 / |delta|.
     NoAudit audit;
     RandomNumbers random(6);
     const auto expect_least = [&](const Velocity<S>& x, const Configuration<S>& q) {
@@ -458,8 +460,8 @@ TEST(HalfExplicit, AStepDependsOnNothingButTheState) {
       ASSERT_EQ(again->start(h, points).outcome, Outcome::ok);
       ASSERT_EQ(running->step().outcome, Outcome::ok);
       ASSERT_EQ(again->step().outcome, Outcome::ok);
-      // v'_s of a stage and v'_1 from its multipliers differ by round-off of the forces, 1e3 eps; so do the multipliers, which have that
-      // of v / h, too.
+      // v'_s of a stage and v'_1 from its multipliers differ by round-off of the forces, 1e3 eps; so do the
+      // multipliers, which have that of v / h, too.
       EXPECT_LE((again->velocity() - running->velocity()).norm(), 1e3 * h * eps) << text(options);
       EXPECT_LE(S::Group::separation(again->configuration(), running->configuration()).norm(), 1e3 * h * eps)
           << text(options);
@@ -617,8 +619,8 @@ TEST(HalfExplicitOnScenes, StorageAndCountingChangeNoBit) {
   }
 }
 
-// In extended precision: another matrix, the same method. Where positions drift the constraints of both are not the same, and so neither
-// are their forces: on the subgroup they do not.
+// In extended precision: another matrix, the same method. Where positions drift the constraints of both are not the
+// same, and so neither are their forces: on the subgroup they do not.
 TEST(HalfExplicitOnScenes, OneTopOnASphericalJointIsTheHeavyTop) {
   HeavyTopParameters p;
   p.angular_velocity = {0.0, 15.0, -0.461538};
