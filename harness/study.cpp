@@ -130,6 +130,15 @@ std::vector<MethodChoice> read_methods(const JsonView& list, Start start) {
     if (!entry.value().is_object()) entry.reject("an object with the key \"name\"");
     entry.require_key("name");
     const MethodInfo& method = by_name(methods(), entry["name"], "integrator");
+    if (entry.has("tolerance") && !method.chooses_steps) {
+      std::vector<std::string> choosing;
+      for (const MethodInfo& other : methods())
+        if (other.chooses_steps) choosing.emplace_back(other.name);
+      throw InputError(entry["tolerance"].pointer(),
+                       fmt::format("{} takes the steps of \"step_sizes\" and knows no tolerance; methods that choose their "
+                                   "steps: {}",
+                                   method.name, quoted_list(choosing)));
+    }
     std::vector<std::string> keys{"name"};
     for (const OptionInfo& info : method.options) keys.emplace_back(info.name);
     entry.require_object(keys);
