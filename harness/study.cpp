@@ -134,10 +134,12 @@ std::vector<MethodChoice> read_methods(const JsonView& list, Start start) {
       std::vector<std::string> choosing;
       for (const MethodInfo& other : methods())
         if (other.chooses_steps) choosing.emplace_back(other.name);
-      throw InputError(entry["tolerance"].pointer(),
-                       fmt::format("{} takes the steps of \"step_sizes\" and knows no tolerance; methods that choose their "
-                                   "steps: {}",
-                                   method.name, quoted_list(choosing)));
+      throw InputError(
+          entry["tolerance"].pointer(),
+          fmt::format(
+              "{} takes the steps of \"step_sizes\" and knows no tolerance; methods that choose their "
+              "steps: {}",
+              method.name, quoted_list(choosing)));
     }
     std::vector<std::string> keys{"name"};
     for (const OptionInfo& info : method.options) keys.emplace_back(info.name);

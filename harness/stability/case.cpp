@@ -70,7 +70,8 @@ void add_trials(std::vector<Trial>& trials, const std::vector<std::string>& form
       if (!safeguard && !contestant.can_be_safeguarded()) continue;
       for (const std::string& form : forms) {
         if (!fits(contestant.method->fits, !form.empty())) continue;
-        if (!form.empty() && !has_option(*contestant.method, "form") && form != contestant.own_form()) continue;
+        if (!form.empty() && !has_option(*contestant.method, "form") && form != contestant.own_form())
+          continue;
         if (auto trial = make(contestant, form)) {
           // Of what takes long once is enough.
           if (!safeguard && !trial->quick) continue;

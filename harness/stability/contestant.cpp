@@ -15,6 +15,10 @@ int Contestant::order() const {
   return method->orders(options).q;
 }
 
+int Contestant::order_of_multipliers(std::string_view form) const {
+  return method->orders(options_for(form)).lambda;
+}
+
 std::string_view Contestant::correction() const {
   if (!options.has("correction") || steps() < 3) return "";
   if (options.is_choice("correction")) return "implicit";

@@ -22,6 +22,8 @@ struct Contestant {
   int steps() const;
   // Of convergence.
   int order() const;
+  // Of convergence of the multipliers in a form.
+  int order_of_multipliers(std::string_view form) const;
   bool is(std::string_view integrator) const { return method->name == integrator; }
   // "explicit", "implicit" or "" where no correction term is computed.
   std::string_view correction() const;

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <string>
 
@@ -71,16 +72,17 @@ bool is_verlet(const Contestant& method) {
   return method.is("rattlie") || method.is("shakelie") || method.is("liemid");
 }
 
-// Of (x, h x'): with D = h Dq, D = h x' - (stiffness x + damping h x') / 2, x <- x + D,
-// h x' <- D - (stiffness x + damping (2 D - h x')) / 2, x the new one there.
+// Of (x, h x', h w), w the velocity that the force at t_n was taken with: with D = h Dq,
+// D = h x' - (stiffness x + damping h w) / 2, x <- x + D, h w <- 2 D - h x', h x' <- D - (stiffness x + damping h w) / 2, x and w the new
+// ones there.
 double verlet_radius(Complex z) {
   const double damping = -2.0 * z.real(), stiffness = std::norm(z);
-  const auto step = [&](const Eigen::Vector2d& y) {
-    const double D = y(1) - 0.5 * (stiffness * y(0) + damping * y(1)), x = y(0) + D;
-    return Eigen::Vector2d(x, D - 0.5 * (stiffness * x + damping * (2.0 * D - y(1))));
+  const auto step = [&](const Eigen::Vector3d& y) {
+    const double D = y(1) - 0.5 * (stiffness * y(0) + damping * y(2)), x = y(0) + D, w = 2.0 * D - y(1);
+    return Eigen::Vector3d(x, D - 0.5 * (stiffness * x + damping * w), w);
   };
-  Eigen::Matrix2d matrix;
-  matrix << step(Eigen::Vector2d::UnitX()), step(Eigen::Vector2d::UnitY());
+  Eigen::Matrix3d matrix;
+  matrix << step(Eigen::Vector3d::UnitX()), step(Eigen::Vector3d::UnitY()), step(Eigen::Vector3d::UnitZ());
   return largest_eigenvalue(matrix.cast<Complex>());
 }
 
@@ -152,6 +154,21 @@ double spectral_radius(const Contestant& method, Complex z) {
       0.0, 0.0, -p.alpha_m, p.alpha_f,   //
       0.0, 0.0, 0.0, 0.0;
   return largest_eigenvalue((left.partialPivLu().solve(right)).cast<Complex>());
+}
+
+double adams_increment_radius(int k, double angle) {
+  if (k == 1) return 0.0;
+  const Complex unit(0.0, 1.0);
+  const auto t = [&](double a) { return (1.0 - std::exp(-unit * a)) / (unit * a); };
+  const int n = k - 1;
+  Eigen::MatrixXcd companion = Eigen::MatrixXcd::Zero(n, n);
+  for (int i = 1; i <= n; ++i) {
+    const Complex gain = value_of<double>(adams_bashforth[std::size_t(k - 1)][std::size_t(i)]) / double(i) *
+                         (1.0 - 1.0 / t(-i * angle)) * t(angle) / t(i * angle);
+    for (int j = 0; j < i; ++j) companion(0, j) += gain * std::exp(-unit * (j * angle));
+  }
+  for (int j = 1; j < n; ++j) companion(j, j - 1) = 1.0;
+  return largest_eigenvalue(companion);
 }
 
 double truncation_spectral_radius(int k, double angle) {

@@ -31,6 +31,13 @@ bool explicit_in_forces(const Contestant& method);
 // The same of v' = lambda v, z = h lambda, the law of a velocity without restoring force.
 double velocity_spectral_radius(const Contestant& method, std::complex<double> z);
 
+// Of Faltinsen's Adams-Bashforth method at a constant rotation by `angle` a step: how a disturbance d of the increments across the axis
+// grows at undisturbed velocities. With [e_3, .] = i on the plane across and the eigenvalue t(a) = (1 - exp(-i a)) / (i a) of T(a e_3)
+// there, a logarithm over i steps is disturbed by D_i, and the increment by
+//
+//   D_i = t(a) / t(i a) sum_{j=0}^{i-1} exp(-i j a) d_{n-j},   d_{n+1} = sum_{i=1}^{k-1} b_{i+1} (1 - 1 / t(-i a)) D_i / i
+double adams_increment_radius(int k, double angle);
+
 // Of variant "bch" of Faltinsen BDF, k = 3, 4, at a constant rotation by `angle` a step: how a disturbance d of the increments across the
 // axis grows at undisturbed velocities, where the series are cut off; with [e_3, .] = i on the plane across,
 //

@@ -100,6 +100,10 @@ Finding examine(const Plan& plan, const Contestant& method, const std::string& f
     finding.expected = Grade::degraded;
     finding.reason = "a_0 is a state of the method: h a_0 too much of velocity, for ever";
   }
+  if (plan.fault == Fault::prediction && method.is("half_explicit")) {
+    finding.at_worst = Grade::degraded;
+    finding.reason = "lambda_0 is an input of the first stage of the first step";
+  }
   if (weakly_unstable(method, form)) {
     finding.at_worst = Grade::failed;
     finding.reason = "rho_inf = 1: the multipliers of the index-3 form are weakly unstable";

@@ -54,7 +54,11 @@ Finding examine(const Plan& plan, const Contestant& method, const std::string& f
   finding.measured["reached"] = double(end.reached);
   if (!plan.possible) {
     // To end with an outcome that says when is to survive.
-    finding.grade = end.outcome != Outcome::ok && end.reached == plan.last ? Grade::survived : Grade::failed;
+    // The last stage of HERK3 is two thirds of a step ahead: the step that ends where the force does is still possible.
+    const bool early =
+        method.is("half_explicit") && method.options.choice("tableau") == "herk3" && plan.last > 0;
+    const std::uint64_t last = plan.last + (early ? 1 : 0);
+    finding.grade = end.outcome != Outcome::ok && end.reached == last ? Grade::survived : Grade::failed;
     return finding;
   }
   if (finding.grade != Grade::survived || plan.steps == 0) return finding;

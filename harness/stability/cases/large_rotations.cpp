@@ -47,9 +47,12 @@ Finding examine(const Contestant& method, double angle) {
     spin = s.bodies[0].omega(2);
   };
   Finding finding = finding_of(run_scene(run));
-  // Variant "exact" takes logarithms of k - 1 steps together.
+  // Variant "exact" and the Adams method take logarithms of k - 1 steps together, that about the new point of k.
   const bool exact = method.is("faltinsen_bdf") && method.options.choice("variant") == "exact";
-  const double logarithm = angle * (exact ? std::max(1, method.steps() - 1) : 1);
+  const int spanned = method.is("centred_bdf")                ? method.steps()
+                      : exact || method.is("faltinsen_adams") ? std::max(1, method.steps() - 1)
+                                                              : 1;
+  const double logarithm = angle * spanned;
   finding.what = "wobble, times the first";
   if (angle >= std::numbers::pi) {
     // No method can: to say so is to survive, with any other outcome it does not.
@@ -65,8 +68,18 @@ Finding examine(const Contestant& method, double angle) {
   }
   if (logarithm >= std::numbers::pi) {
     finding.expected = Grade::failed;
-    finding.reason = "its logarithms span k - 1 steps, which turn by pi or more";
+    finding.reason = fmt::format("its logarithms span {} steps, which turn by pi or more", spanned);
     return finding;
+  }
+  if (method.is("faltinsen_adams")) {
+    const double growth = adams_increment_radius(method.steps(), angle);
+    finding.measured["increment_spectral_radius"] = growth;
+    if (wobble / angle * std::pow(growth, double(steps)) > 1.0) {
+      finding.expected = Grade::failed;
+      finding.reason =
+          fmt::format("disturbances of the increments across the axis grow by {:.4g} a step", growth);
+      return finding;
+    }
   }
   if (method.is("faltinsen_bdf") && !exact && method.steps() >= 3) {
     const double growth = truncation_spectral_radius(method.steps(), angle);

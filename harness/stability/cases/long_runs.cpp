@@ -6,8 +6,8 @@
 
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
-#include "harness/stability/linear_theory.h"
 #include "harness/stability/growth.h"
+#include "harness/stability/linear_theory.h"
 
 // Ten million steps of a slow top on its joint and of a free body.
 
@@ -141,7 +141,8 @@ Finding examine(const Motion& motion, const Contestant& method, const std::strin
     finding.measured["velocity_constraint"] = velocity_law.largest;
     finding.measured["velocity_constraint_exponent"] = velocity_law.exponent;
     // Phi is solved for in every step to some units of its round-off, B v in the stabilized form to some of eps |x| / h.
-    if (!(position_law.largest <= 1000.0 * eps)) finding.grade = Grade::failed;
+    // Half-explicit methods solve for B v alone, and let Phi drift by their own error.
+    if (!method.is("half_explicit") && !(position_law.largest <= 1000.0 * eps)) finding.grade = Grade::failed;
     if (form == "stabilized_index2" && !(velocity_law.largest <= 1000.0 * eps / motion.step_size))
       finding.grade = Grade::failed;
   }

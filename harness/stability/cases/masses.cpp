@@ -24,6 +24,7 @@ struct Plan {
   std::string reason;
   double tension_ratio = 0.0;  // of a chain: the last mass by the others
   double precession = 0.0;     // of a spinning disc, rad/s
+  double condition = 1.0;      // the largest by the smallest mass or moment
 };
 
 // log10 of the most that a transverse vibration of the light rods grows by, while the chain falls from the horizontal as a pendulum of
@@ -77,6 +78,12 @@ Finding examine(const Plan& plan, const Contestant& method, const std::string& f
           "nothing";
     }
   }
+  if (!method.can_be_safeguarded() && !method.is("half_explicit") && plan.condition > 1e8) {
+    finding.at_worst = Grade::failed;
+    finding.reason += fmt::format(
+        "; masses of a ratio of {:.0e} leave residuals that the plain iteration takes for unsolved",
+        plan.condition);
+  }
   if (method.order() == 1) {
     finding.at_worst = Grade::degraded;
     finding.reason += "; order 1 damps every motion";
@@ -103,6 +110,7 @@ Finding examine(const Plan& plan, const Contestant& method, const std::string& f
 Plan heavy_end(double ratio) {
   Plan plan{chain(3), 1e-3, 500, 9.81 * ratio, 1.0, "", ratio};
   BodyDescription& last = plan.scene.bodies.back();
+  plan.condition = ratio;
   last.mass = ratio;
   last.inertia *= ratio;
   auto& weights = std::get<std::vector<Placed<UniformGravity<double>>>>(plan.scene.effects);
@@ -114,6 +122,7 @@ Plan thin_rod() {
   Plan plan{chain(1), 1e-3, 2000, 4.905, 6.0, "nothing divides by the axial moment but its own equation"};
   plan.scene.bodies[0].inertia = Eigen::Vector3d(1e-12, 1.0 / 12.0, 1.0 / 12.0).asDiagonal();
   plan.scene.bodies[0].angular_velocity = {10.0, 0.0, 0.0};
+  plan.condition = 1e12;
   return plan;
 }
 

@@ -57,6 +57,10 @@ Finding friction(const Contestant& method, const std::string& form, double slip)
   finding.what = "rad/s left where it should rest";
   finding.reason =
       "the law is monotone: A-stable methods pass through it; tanh is flat outside its slip velocity";
+  if (!method.can_be_safeguarded() && !explicit_in_forces(method) && slip < 1e-2 * h) {
+    finding.at_worst = Grade::failed;
+    finding.reason += ", and an iteration without the safeguard jumps from one side of it to the other";
+  }
   if (finding.grade == Grade::failed) return finding;
   const double left = std::abs(course.omega(2));
   finding.amount = left;
@@ -94,6 +98,16 @@ Finding contact(const Contestant& method, const std::string&, double stiffness) 
     finding.reason +=
         fmt::format("; an explicit step turns the force of v h into {:.2g} times the velocity", kick);
     if (kick > 1.0) finding.at_worst = Grade::failed;
+    // While it lasts, the contact is a spring of half a period.
+    const double growth = std::pow(spectral_radius(method, {0.0, 3.14 * h / duration}), duration / h);
+    finding.measured["growth_in_contact"] = std::min(growth, 1e300);
+    if (growth > 1.5) {
+      finding.at_worst = Grade::failed;
+      finding.reason += fmt::format("; as a spring the contact lets it grow by {:.3g}", growth);
+    }
+  } else if (!method.can_be_safeguarded() && duration < 20.0 * h) {
+    finding.at_worst = Grade::failed;
+    finding.reason += "; its iteration has no safeguard";
   }
   if (finding.grade == Grade::failed) return finding;
   // From the ground up: 0.5 m of 9.81 N.

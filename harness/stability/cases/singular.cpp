@@ -41,6 +41,7 @@ struct Plan {
   double allowed;
   std::string reason;
   bool possible = true;  // for any method, in double
+  bool flat = false;     // through places where the constraints lose rank
 };
 
 Finding examine(const Plan& plan, const Contestant& method, const std::string& form) {
@@ -58,6 +59,10 @@ Finding examine(const Plan& plan, const Contestant& method, const std::string& f
   if (method.order() == 1 && plan.possible) finding.at_worst = Grade::degraded;
   finding.what = plan.what;
   finding.reason = plan.reason;
+  if (plan.flat && !method.can_be_safeguarded()) {
+    finding.at_worst = Grade::failed;
+    finding.reason += "; nothing leads an iteration without the safeguard through them";
+  }
   if (!plan.possible) {
     finding.grade = finding.outcome == Outcome::singular_matrix ? Grade::survived : Grade::failed;
     return finding;
@@ -92,7 +97,9 @@ Plan four_bar_through_flat() {
           "position of B_0, m",
           1e-2,
           "at the flat places a direction is held by nothing for an instant; the multipliers of the index-3 "
-          "form need not be unique"};
+          "form need not be unique",
+          true,
+          true};
 }
 
 Plan bricard() {

@@ -79,7 +79,8 @@ Finding examine(const Contestant& method, const std::string& form, double h) {
   constexpr double coarse = 1e-4;
   double truncation = 0.0;
   if (h < coarse)
-    truncation = noise(method, form, coarse, steps).second * std::pow(h / coarse, method.order());
+    truncation =
+        noise(method, form, coarse, steps).second * std::pow(h / coarse, method.order_of_multipliers(form));
   finding.measured["lambda_error"] = largest;
   finding.measured["floor"] = floor;
   finding.measured["truncation"] = truncation;

@@ -107,6 +107,17 @@ Finding examine(const Contestant& method, const std::string& form, double stiffn
         "; but a_0 is a state of the method, and h a_0 of velocity turns by h^2 a_0 = {:.2g} rad a step",
         first_turn);
   }
+  // A method that has no safeguard, or moves by the velocity at the middle of the step, may turn too far on its way to the solution.
+  const bool may_turn = method.is("radau") || method.is("newmark") || method.is("implicit_midpoint");
+  if (may_turn && first_turn > 1.0) {
+    finding.at_worst = Grade::failed;
+    finding.reason +=
+        fmt::format("; but h^2 v'_0 is a turn of {:.2g} rad, where the iteration begins", first_turn);
+  }
+  if (method.is("gauss") && std::abs(z) > 1.0) {
+    finding.at_worst = Grade::failed;
+    finding.reason += "; but no spring is in the matrices of its stages, which contract for |z| < 1 or so";
+  }
   if (finding.grade == Grade::failed) return finding;
   const double factor = std::sqrt(energy / first);
   finding.measured["amplitude"] = factor;
