@@ -25,21 +25,26 @@
 #include "integrators/step_control.h"
 #include "integrators/step_differences.h"
 
-// BLieDF2nd with variable steps h_1 = t_{n+1} - t_n, h_2 = t_n - t_{n-1}, ..., with middles m_i, and with variable order k <= 4:
+// BLieDF2nd with variable steps h_1 = t_{n+1} - t_n, h_2 = t_n - t_{n-1}, ..., with middles m_i, and with variable
+// order k <= 4:
 //
 //   q_{n+1} = q_n o exp(h_1 Dq_n~)
 //   sum_{i=1}^k gamma_i Dq_{n+1-i} = v_{n+1} + (S_0 [v, v'] + S_1 [v, v'']) / 12           v, v', v'' at t_{n+1}
 //   v'_{n+1} = sum_{i=1}^k gamma_i (v_{n+2-i} - v_{n+1-i}) / h_i = -M^{-1} (g + B^T lambda)
 //
-// with the gamma_i of integrators/step_differences.h and S_0 = sum gamma_i h_i^2, S_1 = sum gamma_i h_i^2 (m_i - t_{n+1}): by the
-// Magnus expansion an increment is the mean of v over its step and h_i^2 / 12 [v, v'](m_i), up to O(h_i^4). In constant steps
-// S_0 = h^2 for k >= 2, and S_1 = 0 for k >= 3, which is eq. (22); in others S_1 = O(h^3), and order 4 needs it.
+// with the gamma_i of integrators/step_differences.h and
 //
-// [v, v'] and [v, v''] are explicit as in eq. (22): v_n, and the line through the mean accelerations of the last step and, for
-// k >= 3, of that two before it; for k <= 2 that of the last step.
+//   S_0 = sum_{i=1}^k gamma_i h_i^2,   S_1 = sum_{i=1}^k gamma_i h_i^2 (m_i - t_{n+1})
 //
-// The Newton iteration is that of the other methods, down to round-off, whatever the tolerance is. In double, and with a constraint, the
-// velocity of a step is known to some eps |q| / h: a tolerance below 1e-11 is below that.
+// for by the Magnus expansion an increment is the mean of v over its step and h_i^2 / 12 [v, v'](m_i), to O(h_i^4).
+// In constant steps S_0 = h^2 for k >= 2, and S_1 = 0 for k >= 3, which is eq. (22); in others S_1 is of O(h^3), and
+// order 4 needs it.
+//
+// [v, v'] and [v, v''] are explicit as in eq. (22): v_n, and the line through the mean accelerations of the last step
+// and, for k >= 3, of that two before it; for k <= 2 that of the last step.
+//
+// The Newton iteration is that of the other methods, down to round-off, whatever the tolerance is. In double, and
+// with a constraint, the velocity of a step is known to some eps |q| / h: a tolerance below 1e-11 is below that.
 
 namespace liebench {
 
@@ -113,8 +118,8 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
         increment_changes_(most_past - 1, zero_),
         lambda_slopes_(most_past, zero_multipliers(system)) {}
 
-  // The interval [t_0, t_0 + length], from q_0, v_0 and v'_0. The history begins with the tangent: a step before t_0 with the
-  // constant acceleration v'_0, which predictions and estimates of errors take, and no formula of a step.
+  // The interval [t_0, t_0 + length], from q_0, v_0 and v'_0. The history begins with the tangent: a step before t_0
+  // with the constant acceleration v'_0, which predictions and estimates of errors take, and no formula of a step.
   StepResult start(const T& length, std::span<const SolutionPoint<S>> points) {
     const SolutionPoint<S>& first = points[0];
     t_ = first.t;
@@ -217,15 +222,16 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
 
   static T abs_of(const T& x) { return x < T(0.0) ? T(-x) : x; }
 
-  // The longest step up to h that divides what is left of the interval: so no step is cut at its end, which in the index-3 form would
-  // cost the digits of lambda.
+  // The longest step up to h that divides what is left of the interval: so no step is cut at its end, which in the
+  // index-3 form would cost the digits of lambda.
   T dividing(double h) const {
     const T left = t_end_ - t_;
     return left / T(std::max(std::ceil(to_double(left) / h - 1e-6), 1.0));
   }
 
-  // In proportion to the square root of the tolerance, as the error of order 1 asks for, of the time in which the velocity changes by
-  // itself, or the body turns by a radian [Hairer, Norsett & Wanner, II.4]. Zero, or no number, for values that are none.
+  // In proportion to the square root of the tolerance, as the error of order 1 asks for, of the time in which the
+  // velocity changes by itself, or the body turns by a radian [Hairer, Norsett & Wanner, II.4]. Zero, or no number,
+  // for values that are none.
   double first_step(double length, const Velocity<S>& acceleration) const {
     const double v = to_double(largest_entry(velocity_)), a = to_double(largest_entry(acceleration));
     const double rate = v + a / (1.0 + v);
@@ -284,8 +290,8 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
     return [&weights, i](int j) -> const T& { return weights[i + std::size_t(j)]; };
   }
 
-  // The Newton matrix is that of a step size and of a gamma_1. With one of others the iteration would take more corrections than a new
-  // matrix costs.
+  // The Newton matrix is that of a step size and of a gamma_1. With one of others the iteration would take more
+  // corrections than a new matrix costs.
   void renew_matrix(const T& slope) {
     const auto differs = [](const T& x, const T& y) {
       return !(std::abs(to_double(x) - to_double(y)) < 0.02 * std::abs(to_double(y)));
@@ -320,7 +326,8 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
   }
 
   // In differences: with d = Dq_n - Dq_{n-1} and sum gamma_i = 1,
-  //   v_{n+1} - v_n = gamma_1 d + (Dq_{n-1} - v_n) + sum_{i>=2} (gamma_1 + ... + gamma_i - 1) (Dq_{n+1-i} - Dq_{n-i}) - correction
+  //   v_{n+1} - v_n = gamma_1 d + (Dq_{n-1} - v_n)
+  //                   + sum_{i>=2} (gamma_1 + ... + gamma_i - 1) (Dq_{n+1-i} - Dq_{n-i}) - correction
   AffineClosure<S> next_closure() {
     AffineClosure<S> closure;
     closure.velocity_slope = gamma_[0];
@@ -352,16 +359,17 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
     return closure;
   }
 
-  // The errors of a step of order k are those of its formulas by the formulas of order k + 1, over alpha_0 = gamma_1 / h_1:
+  // The errors of a step of order k are those of its formulas by the formulas of order k + 1, over alpha_0, which is
+  // gamma_1 / h_1:
   //
   //   of v    phi_k of the mean accelerations
   //   of q    h_1 (phi_k of the increments without their h_i^2 / 12 [v, v'](m_i), and the error of the correction)
   //
   // with [v, v'] and [v, v''] by v_{n+1}.
   //
-  // In the index-3 form the constraint fixes Dq_n, and so, whatever v was before, the part of v_{n+1} that is normal to it, with an error
-  // of O(h^k) that changes where the steps do. It is one of the formula, not of a motion that goes astray: the prediction misses it in
-  // any step, however short. What is controlled is the tangential part.
+  // In the index-3 form the constraint fixes Dq_n, and so, whatever v was before, the part of v_{n+1} that is normal
+  // to it, with an error of O(h^k) that changes where the steps do. It is one of the formula, not of a motion that
+  // goes astray: the prediction misses it in any step, however short. What is controlled is the tangential part.
   OrderControl::Errors errors_of(const typename Base::Point& point, const Velocity<S>& change) {
     const Velocity<S>& v = point.values.velocity;
     Velocity<S> x;

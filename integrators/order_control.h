@@ -6,13 +6,14 @@
 
 namespace liebench {
 
-// Step size and order of a BDF method with error estimates for its order k and those beside it, each in units of the tolerance, as
-// LSODE has them [Hairer, Norsett & Wanner, Solving ODE I, III.7]. The factor for the step size that an order allows is
-// (bias error)^{-1 / (order + 1)}, and the order with the largest one is taken.
+// Step size and order of a BDF method with error estimates for its order k and those beside it, each in units of the
+// tolerance, as LSODE has them [Hairer, Norsett & Wanner, Solving ODE I, III.7]. The factor for the step size that an
+// order allows is (bias error)^{-1 / (order + 1)}, and the order with the largest one is taken.
 //
-// A step that is accepted keeps step size and order until k + 1 of them are alike, and changes them only if 1.2 times the step is
-// to be had; it grows by 2 at most. So the formulas stay zero-stable: errors of the past shrink by 0.16 (k = 3) or 0.30 (k = 4) from
-// one doubling to the next, while a doubling in every step would let them grow (tests/integrators/step_differences_test.cpp).
+// A step that is accepted keeps step size and order until k + 1 of them are alike, and changes them only if 1.2 times
+// the step is to be had; it grows by 2 at most. So the formulas stay zero-stable: errors of the past shrink by 0.16
+// (k = 3) or 0.30 (k = 4) from one doubling to the next, while a doubling in every step would let them grow
+// (tests/integrators/step_differences_test.cpp).
 class OrderControl {
  public:
   // Of the orders k - 1, k, k + 1; infinite where there is none.

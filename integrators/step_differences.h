@@ -15,8 +15,8 @@ namespace liebench {
 //
 //   U'(t_{n+1}) = sum_{l=0}^{k-1} phi_l = sum_{i=1}^k gamma_i x_i,   gamma_i = sum_{l=0}^{k-1} D_{l,i}
 //
-// the BDF formula of order k for any steps [Hairer, Norsett & Wanner, Solving ODE I, III.5]: alpha_0 = gamma_1 / h_1, its error is
-// phi_k + phi_{k+1} + ..., and phi_l = 0 predicts x_1 of degree l.
+// the BDF formula of order k for any steps [Hairer, Norsett & Wanner, Solving ODE I, III.5]: alpha_0 = gamma_1 / h_1,
+// its error is phi_k + phi_{k+1} + ..., and phi_l = 0 predicts x_1 from x_2, ..., x_{l+1}.
 template <class T>
 struct StepDifferences {
   static constexpr std::size_t most = 5;  // slopes

@@ -23,8 +23,8 @@ namespace {
 
 using Method = BLieDF2ndVariable;
 
-// Every step of a run is held against the equations of the method, written down anew from positions and velocities: BDF by the derivatives
-// of Lagrange's polynomials instead of differences.
+// Every step of a run is held against the equations of the method, written down anew from positions and velocities:
+// BDF by the derivatives of Lagrange's polynomials instead of differences.
 template <class S, Form form>
 void expect_the_equations_in_every_step(double tolerance, double end) {
   using G = typename S::Group;
@@ -138,7 +138,8 @@ Course run(const Method::Options& options, double begin = 0.0, double end = 1.0)
   return course;
 }
 
-// What a step size within a factor of 1.2 (bias) times 1.2 (worthwhile) below the one that the tolerance allows leaves open.
+// What a step size within a factor of 1.2 (bias) times 1.2 (worthwhile) below the one that the tolerance allows
+// leaves open.
 constexpr double step_margin = 1.2 * 1.2;
 
 // A hundredth of the tolerance: 100^{1/(k+1)} times the steps, each with an error a hundredth as large.
@@ -152,7 +153,8 @@ void expect_error_in_proportion_to_tolerance(Form form) {
     const std::string text = std::to_string(int(form)) + ' ' + std::to_string(tolerance);
     ASSERT_EQ(course.outcome, Outcome::ok) << text;
     EXPECT_EQ(course.time, 1.0);
-    // A local error of the tolerance in each step, which a second of this motion does not multiply by ten; |Omega| = 4.3.
+    // A local error of the tolerance in each step, which a second of this motion does not multiply by ten; the velocity
+    // is 4.3 rad/s.
     EXPECT_LE(course.q, 10.0 * tolerance * course.steps) << text;
     EXPECT_LE(course.v, 10.0 * tolerance * (1.0 + 4.3) * course.steps) << text;
     if (before.steps > 0) {
@@ -173,8 +175,8 @@ TEST(BLieDF2ndVariable, HasAnErrorInProportionToItsTolerance) {
   expect_error_in_proportion_to_tolerance<HeavyTopR3xSO3<double>>(Form::stabilized_index2);
 }
 
-// The multipliers: an error of v over a step in the index-3 form, O(h^{k-1}) where steps change; of the order of the method in the
-// other.
+// The multipliers: an error of v over a step in the index-3 form, O(h^{k-1}) where steps change; of the order of the
+// method in the other.
 TEST(BLieDF2ndVariable, HasMultipliersOfTheOrderOfItsForm) {
   using S = HeavyTopR3xSO3<double>;
   for (const Form form : {Form::index3, Form::stabilized_index2}) {
@@ -316,7 +318,8 @@ TEST(BLieDF2ndVariable, FollowsARotationThatGrowsFasterInShorterSteps) {
   EXPECT_LE((stepper->velocity() - spinning_up_point(40.0).v).norm(), 1e-9);
 }
 
-// A particle under a constant pull runs into a spring of 1000 N/m: the steps before it are too long there. Without commutators.
+// A particle under a constant pull runs into a spring of 1000 N/m: the steps before it are too long there. Without
+// commutators.
 TEST(BLieDF2ndVariable, RejectsStepsIntoAWallAndCountsThem) {
   using S = Audited<Particle<double, Unconstrained>>;
   const S system{Particle<double, Unconstrained>(1.0, ParticleForce::spring_behind_a_wall)};
@@ -335,8 +338,8 @@ TEST(BLieDF2ndVariable, RejectsStepsIntoAWallAndCountsThem) {
   }
   EXPECT_GE(stepper->audit().rejections, 1u);
   EXPECT_LT(shortest, 0.2 * longest_before_the_wall);
-  // y = t + t^2 / 2 up to 3/2 at t = 1, then y = 3/2 + 1/1000 + (2 sin(w s)) / w - cos(w s) / 1000 with s = t - 1, w^2 = 1000 /s^2; back
-  // at the wall with y' = -2, and so on.
+  // y = t + t^2 / 2 up to 3/2 at t = 1, then y = 3/2 + 1/1000 + 2 sin(w s) / w - cos(w s) / 1000 with s = t - 1 and
+  // w^2 = 1000 /s^2; back at the wall with y' = -2, and free again.
   const double w = std::sqrt(1000.0);
   const double phase = std::atan2(-1e-3, 2.0 / w);
   const double out = 1.0 + (std::numbers::pi - 2.0 * phase) / w;

@@ -105,7 +105,8 @@ TEST(StepDifferences, HaveTheMomentsOfTheirSteps) {
   }
 }
 
-// The defect of sum gamma_i Dq_{n+1-i} = v + (S_0 [v, v'] + S_1 [v, v'']) / 12 on the slow top, for steps of h times `steps`.
+// The defect of sum gamma_i Dq_{n+1-i} = v + (S_0 [v, v'] + S_1 [v, v'']) / 12 on the slow top, for steps of h times
+// `steps`.
 double defect(int k, double h, bool square, bool cubic) {
   using G = SO3<E>;
   static const HeavyTopMotion motion(slow_top(), 0.6);
@@ -147,8 +148,8 @@ TEST(CorrectionOfAnySteps, NeedsTheSecondTermForOrderFourAndTheFirstForThree) {
   for (const int k : {3, 4}) EXPECT_NEAR(order_of_defect(k, false, false), 2.0, 0.1) << k;
 }
 
-// By what errors of the past shrink from one doubling of the step to the next, `wait` steps later: the spectral radius of what the
-// homogeneous formula of order k makes of changes of U.
+// By what errors of the past shrink from one doubling of the step to the next, `wait` steps later: the spectral
+// radius of what the homogeneous formula of order k makes of changes of U.
 double shrinkage(int k, int wait) {
   std::deque<double> h(8, 1.0), x{1.0, -0.75, 0.5, 0.25, -0.5, 1.0, 0.5, 1.0};
   double logarithm = 0.0;
