@@ -24,13 +24,17 @@
 
 namespace liebench {
 
-// x to half of its digits.
+// x to half of its digits; of a double by Veltkamp's splitting [Dekker 1971]: GCC 12 leaves out the conversion to float and back where
+// it forms vectors (-ftree-slp-vectorize).
 template <class T>
 T leading_half(const T& x) {
-  if constexpr (ScalarTraits<T>::extended)
-    return T(to_double(x));
-  else
-    return T(double(static_cast<float>(to_double(x))));
+  const double leading = to_double(x);
+  if constexpr (ScalarTraits<T>::extended) {
+    return T(leading);
+  } else {
+    const double scaled = 0x1.0000002p27 * leading;
+    return T(scaled - (scaled - leading));
+  }
 }
 
 // The logarithms are evaluated at a point next to d, and v_{n+1} at d by its derivative there: with b = h (d - point),

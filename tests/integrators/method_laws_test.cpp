@@ -34,11 +34,12 @@ std::vector<SolutionPoint<S>> straight_points(const S& system, double h) {
 
 // What the first step, or the start before it, ends with.
 template <class S>
-void expect_outcome(const S& system, Outcome expected) {
+void expect_outcome(const S& system, Outcome expected, std::string_view but_of = "") {
   constexpr double h = 0.1;
   const auto points = straight_points(system, h);
   const auto methods = every_method<S>();
   for (const MethodCase<S>& method : methods) {
+    if (method.method == but_of) continue;
     const auto stepper = method.stepper(system);
     Outcome outcome =
         stepper->start(h, std::span(points).first(std::size_t(stepper->starting_points()))).outcome;
@@ -61,7 +62,8 @@ TEST(EveryMethod, ReportsForcesThatAreNoNumbersAsNonFinite) {
 }
 
 TEST(EveryMethod, ReportsAConstraintWithoutSolutionAsDivergence) {
-  expect_outcome(Particle<double, ImpossibleConstraint>(), Outcome::newton_diverged);
+  // Half-explicit methods do not solve Phi = 0.
+  expect_outcome(Particle<double, ImpossibleConstraint>(), Outcome::newton_diverged, HalfExplicit::name);
 }
 
 TEST(EveryMethod, FollowsARotationThatGrowsFasterUntilAStepTurnsByPi) {

@@ -100,7 +100,8 @@ TEST(RkmkVariable, TakesTheSameStepsInAnAudit) {
   while (!stepper->finished()) {
     ASSERT_EQ(stepper->step().outcome, Outcome::ok);
     ASSERT_EQ(audited->step().outcome, Outcome::ok);
-    ASSERT_EQ(state_of(*stepper), state_of(*audited)) << ++steps;
+    ++steps;
+    ASSERT_EQ(state_of(*stepper), state_of(*audited)) << steps;
   }
   EXPECT_TRUE(audited->finished());
   // One evaluation at the start, six in each step, accepted or not.
