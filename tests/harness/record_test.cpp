@@ -102,6 +102,7 @@ TEST(Record, TheSchemaForbidsAnyFurtherKey) {
 
 TEST(Record, TheSchemaMissesEveryKeyThatIsTakenAway) {
   const std::set<std::string> optional{"/local_steps",
+                                       "/requested_step_size",
                                        "/errors/lambda",
                                        "/drift/position_constraint",
                                        "/drift/velocity_constraint",
