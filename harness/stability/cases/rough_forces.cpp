@@ -57,7 +57,7 @@ Finding friction(const Contestant& method, const std::string& form, double slip)
   finding.what = "rad/s left where it should rest";
   finding.reason =
       "the law is monotone: A-stable methods pass through it; tanh is flat outside its slip velocity";
-  if (!method.can_be_safeguarded() && !explicit_in_forces(method) && slip < 1e-2 * h) {
+  if (!method.can_be_safeguarded() && !explicit_in_forces(method) && slip < 0.1 * h) {
     finding.at_worst = Grade::failed;
     finding.reason += ", and an iteration without the safeguard jumps from one side of it to the other";
   }
