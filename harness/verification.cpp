@@ -200,7 +200,9 @@ std::string matrices(const std::map<std::string, std::vector<RecordRow>>& record
        "over the "
        "whole interval"},
       {"verification_constrained", "The rest of the field, with constraints",
-       "RATTLie and SHAKELie have order 2 in all components and no transient phase; half-explicit methods "
+       "BDF centred at the new point has the orders of the other BDF methods. RATTLie and SHAKELie have "
+       "order 2 in all "
+       "components and no transient phase; half-explicit methods "
        "and Radau IIA "
        "lose one order in lambda, Radau IIA of index 3 two orders in v and three in lambda"}};
   std::string text;
