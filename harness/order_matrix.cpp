@@ -24,7 +24,7 @@ std::string form_name(const Curve& curve) {
   const Json& options = *curve.identity->options;
   if (!options.contains("form")) return constrained(curve) ? "its own" : "unconstrained";
   if (options.at("form") == "stabilized_index2") return "stabilized index 2";
-  return options.at("modified_start") == true ? "index 3, modified start" : "index 3";
+  return options.value("modified_start", false) ? "index 3, modified start" : "index 3";
 }
 
 // Velocities in the body frame, in which the constraint of the top is a subalgebra.

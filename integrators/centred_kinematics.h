@@ -24,7 +24,7 @@
 
 namespace liebench {
 
-// x to half of its digits; of a double by Veltkamp's splitting [Dekker 1971]: GCC 12 leaves out the conversion to float and back where
+// x to half of its digits, 24 of a double, by Veltkamp's splitting [Dekker 1971]: GCC 12 leaves out the conversion to float and back where
 // it forms vectors (-ftree-slp-vectorize).
 template <class T>
 T leading_half(const T& x) {
@@ -32,7 +32,7 @@ T leading_half(const T& x) {
   if constexpr (ScalarTraits<T>::extended) {
     return T(leading);
   } else {
-    const double scaled = 0x1.0000002p27 * leading;
+    const double scaled = 0x1.00000008p29 * leading;
     return T(scaled - (scaled - leading));
   }
 }
