@@ -52,7 +52,7 @@ class ErasedBlockMatrix final : public AnyStepMatrix<typename S::Scalar> {
   }
   template <Form form>
   Outcome factorize_at(SparseRadauMatrix<S, form>& matrix, const Point& p, const Derivatives&) {
-    const RadauStages<S> stages = radau_stages<S>(p, [](const auto& q) { return q; });
+    const RadauStages<S> stages = radau_stages<S>(matrix.coefficients(), p, [](const auto& q) { return q; });
     count(stages.size());
     return matrix.factorize_at(system_, p.h, stages);
   }

@@ -71,8 +71,9 @@ template <DenseSystem S, Form form>
 Outcome factorize_erased(DenseRadauMatrix<S, form>& matrix, const S& system,
                          const typename AnyStepMatrix<typename S::Scalar>::Point& p,
                          const typename AnyStepMatrix<typename S::Scalar>::Derivatives&) {
-  return matrix.factorize_at(system, p.h,
-                             radau_stages<S>(p, [](const auto& q) { return S::Group::unstacked(q); }));
+  return matrix.factorize_at(system, p.h, radau_stages<S>(matrix.coefficients(), p, [](const auto& q) {
+                               return S::Group::unstacked(q);
+                             }));
 }
 
 // A system of fixed size as a RunTimeSystem.

@@ -16,9 +16,9 @@ namespace liebench {
 
 // The stages in a point that has all of them behind each other; element(q) is the element that q stands for.
 template <MechanicalSystem S, class Point, class Element>
-RadauStages<S> radau_stages(const Point& p, const Element& element) {
+RadauStages<S> radau_stages(const RadauCoefficients<typename S::Scalar>& coefficients, const Point& p,
+                            const Element& element) {
   using T = typename S::Scalar;
-  static const RadauCoefficients<T> coefficients;
   RadauStages<S> all;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto own = [&](const auto& together) {
@@ -87,6 +87,7 @@ class DenseRadauMatrix {
   static constexpr double factorization_cost() { return 6.0; }
   static constexpr double most_noise() { return 32.0; }
   const Linear& mass_scale() const { return mass_scale_; }
+  const RadauCoefficients<Linear>& coefficients() const { return coefficients_; }
 
  private:
   using Matrix = VelocityMatrix<LinearSystem>;
@@ -94,11 +95,10 @@ class DenseRadauMatrix {
   static constexpr int l = S::constraints;
   static constexpr int stages_ = Equation::stages;
 
-  [[gnu::noinline]] static void form_at(const LinearSystem& system, const Linear& h,
-                                        const RadauStages<LinearSystem>& stages, typename Lu::Matrix& J) {
+  [[gnu::noinline]] void form_at(const LinearSystem& system, const Linear& h,
+                                 const RadauStages<LinearSystem>& stages, typename Lu::Matrix& J) const {
     using Group = typename LinearSystem::Group;
-    static const RadauCoefficients<Linear> coefficients;
-    const auto& [c, a, inverse, next_change, next_value] = coefficients;
+    const auto& [c, a, inverse, next_change, next_value] = coefficients_;
     std::array<Matrix, std::size_t(stages_)> tangents;
     for (std::size_t i = 0; i < tangents.size(); ++i) tangents[i] = Group::tangent(stages[i].angle);
     const auto change = [&, &a = a, &c = c](std::size_t i, std::size_t j) {
@@ -150,6 +150,7 @@ class DenseRadauMatrix {
   }
 
   LinearSystem linear_system_;
+  RadauCoefficients<Linear> coefficients_;
   Lu lu_;
   Linear mass_scale_ = Linear(0.0);
 };

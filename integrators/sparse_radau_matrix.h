@@ -67,6 +67,7 @@ class SparseRadauMatrix {
   static constexpr double factorization_cost() { return 2.5; }
   static constexpr double most_noise() { return 1e4; }
   const T& mass_scale() const { return mass_scale_; }
+  const RadauCoefficients<T>& coefficients() const { return coefficients_; }
 
  private:
   using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
