@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tests/support/dense_algebra.h"
+
 namespace liebench::patterned_matrix_test {
 namespace {
 
