@@ -56,9 +56,7 @@ Outcome factorize_erased(DenseStepMatrix<S, form>& matrix, const S& system,
   typename Equation::Unknowns z = Equation::Unknowns::Constant(T(0.0));
   Equation::scaled_lambda(z, system) = p.scaled_lambda;
   const auto q_n = S::Group::unstacked(p.q_n);
-  const auto with = [&](const auto& d) {
-    return matrix.factorize_at(system, p.t, p.h, q_n, d, point, z);
-  };
+  const auto with = [&](const auto& d) { return matrix.factorize_at(system, p.t, p.h, q_n, d, point, z); };
   if (const auto* scalar = std::get_if<ClosureDerivatives<T>>(&derivatives)) return with(*scalar);
   if constexpr (form == Form::index3)
     if (const auto* scalar = std::get_if<ClosureDerivatives<T, true>>(&derivatives)) return with(*scalar);

@@ -14,7 +14,7 @@ namespace liebench {
 // Half-explicit Runge-Kutta methods in canonical coordinates of the step: explicit but for one small linear system a
 // stage, which gives multipliers that keep the hidden constraint B(q) v = 0; the constraint itself drifts by the error
 // of the method, without `projection`. For systems that are not stiff. integrators/half_explicit_stepper.h has the
-// equations. [Brasey & Hairer, SIAM J. Numer. Anal. 30 (1993) 538-552; Arnold, BIT 38 (1998) 415-438; Arnold &
+// equations. [Brasey & Hairer, SIAM Journal on Numerical Analysis 30 (1993) 538-552; Arnold, BIT 38 (1998) 415-438; Arnold &
 // Tumiotto, Multibody Syst. Dyn. (2024), doi 10.1007/s11044-024-10002-8]
 struct HalfExplicit {
   static constexpr std::string_view name = "half_explicit";

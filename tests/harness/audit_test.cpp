@@ -117,7 +117,8 @@ TEST_F(AuditTest, TheStartIsPartOfTheCost) {
   const auto given = run(R"([{"name": "bliedf2nd", "k": 3, "modified_start": false}])", from_reference);
   for (std::size_t i = 0; i < own.size(); ++i) {
     EXPECT_EQ(count(given[i], "tangent_inverse"), 0u);
-    EXPECT_EQ(count(own[i], "tangent_inverse"), 6u * 3u);  // stages but the first, steps to the points t_1, t_2, t_3
+    EXPECT_EQ(count(own[i], "tangent_inverse"),
+              6u * 3u);  // stages but the first, steps to the points t_1, t_2, t_3
     EXPECT_GT(count(own[i], "flops"), count(given[i], "flops"));
   }
 }
