@@ -8,6 +8,7 @@
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
 #include "integrators/bdf_coefficients.h"
+#include "integrators/radau_coefficients.h"
 
 // The multipliers of the paper's top as h -> 0, in the index-3 form.
 
@@ -37,8 +38,17 @@ double noise_gain(const Contestant& method, double h) {
   if (method.is("half_explicit")) return 20.0 * 150.0 * h;
   // Phi at three points, over h^2.
   if (method.is("rattlie") || method.is("shakelie")) return 8.0;
-  // The sums of |d_ij| twice, as of a_ij^{-1} [Hairer & Wanner, IV.5].
-  if (method.is("radau")) return 2.0 * 15.0 * 15.0;
+  // v'_{n+1} = sum_j (d^2)_3j (Theta_j - Theta_n) / h^2 with the inverse d of a_ij: Phi at three stages and at t_n.
+  if (method.is("radau")) {
+    const auto d = RadauCoefficients<double>().inverse;
+    double stages = 0.0, start = 0.0;
+    for (std::size_t j = 0; j < d.size(); ++j) {
+      const double twice = d[2][0] * d[0][j] + d[2][1] * d[1][j] + d[2][2] * d[2][j];
+      stages += std::abs(twice);
+      start += twice;
+    }
+    return stages + std::abs(start);
+  }
   if (const auto rho = method.rho_inf()) {
     // a_{n+1} from the recursion d = beta h (a_{n+1} - a_n), v' by the filter with poles -rho_inf.
     const double beta = 1.0 / ((*rho + 1.0) * (*rho + 1.0));
