@@ -33,9 +33,10 @@ struct RunRequest {
   std::string integrator;
   OptionValues options;
   Start start = Start::self;
-  Extended step_size;  // h, s; the length of the interval, of a method that chooses its steps
-  std::uint64_t steps =
-      0;  // N: the run covers t_0, ..., t_0 + N h, starting values included; or the most it may choose
+  // h, s, and N: the run covers t_0, ..., t_0 + N h, starting values included. Of a method that chooses its steps the length of the
+  // interval, and the most steps that it may choose.
+  Extended step_size;
+  std::uint64_t steps = 0;
   bool chooses_steps = false;  // of the method
 };
 
