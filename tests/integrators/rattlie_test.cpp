@@ -178,18 +178,6 @@ TEST(Rattlie, HasOrderTwoWithForcesThatDependOnTheVelocity) {
   EXPECT_NEAR(std::log2((coarse - middle).norm() / (middle - fine).norm()), 2, order_tolerance);
 }
 
-// |q| = 1
-template <class T>
-struct Circle {
-  static constexpr int constraints = 1;
-  using Vector = Eigen::Matrix<T, 2, 1>;
-  static Eigen::Matrix<T, 1, 1> phi(const Vector& q) {
-    return Eigen::Matrix<T, 1, 1>((q.squaredNorm() - T(1.0)) / T(2.0));
-  }
-  static Eigen::Matrix<T, 1, 2> gradient(const Vector& q) { return q.transpose(); }
-  static Eigen::Matrix<T, 1, 2> gradient_derivative(const Vector&, const Vector& v) { return v.transpose(); }
-};
-
 // RATTLE [Andersen 1983] for a pendulum: the impulse is the root of a quadratic equation.
 TEST(Rattlie, IsRattleInALinearSpace) {
   using S = Particle<double, Circle>;

@@ -143,6 +143,18 @@ class Particle {
   ParticleForce force_;
 };
 
+// x^2 + y^2 = 1
+template <class T>
+struct Circle {
+  static constexpr int constraints = 1;
+  using Vector = Eigen::Matrix<T, 2, 1>;
+  static Eigen::Matrix<T, 1, 1> phi(const Vector& q) {
+    return Eigen::Matrix<T, 1, 1>((q.squaredNorm() - T(1.0)) / T(2.0));
+  }
+  static Eigen::Matrix<T, 1, 2> gradient(const Vector& q) { return q.transpose(); }
+  static Eigen::Matrix<T, 1, 2> gradient_derivative(const Vector&, const Vector& v) { return v.transpose(); }
+};
+
 // x = 1, said twice: the gradient has rank 1 of 2.
 template <class T>
 struct RedundantConstraint {
