@@ -148,17 +148,10 @@ class BdfStepper : public BasicStepper<S, form, Audit> {
 
   // t_n -> t_{n+1}
   StepResult step() {
-    if constexpr (inlines_all<S>) {
-      return step_inlined();
-    } else {
-      return take_step();
-    }
+    return inlined_step<S>([this] { return take_step(); });
   }
 
  private:
-  // In double all but the kernel's solve() is inlined: what is passed through memory stalls the processor.
-  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
-
   StepResult take_step() {
     set(state_.velocity, velocity_);
     if (!kinematics_.defined(state_)) return {Outcome::rotation_too_large};

@@ -147,16 +147,10 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
 
   // One step that is accepted.
   StepResult step() {
-    if constexpr (inlines_all<S>) {
-      return step_inlined();
-    } else {
-      return take_step();
-    }
+    return inlined_step<S>([this] { return take_step(); });
   }
 
  private:
-  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
-
   StepResult take_step() {
     const T t = t_;
     const Configuration<S> q = q_;

@@ -42,15 +42,6 @@ class BasicExplicitStepper {
     mass_.prepare(system_, audit_);
   }
 
-  // take_step() with all that it calls inlined, where that pays.
-  template <class Step>
-  static StepResult inlined_step(const Step& take_step) {
-    if constexpr (inlines_all<S>)
-      return detail::flattened(take_step);
-    else
-      return take_step();
-  }
-
   // F = v'
   Outcome acceleration(const T& t, const Configuration<S>& q, const Velocity<S>& v, Velocity<S>& F) {
     const Velocity<S> force = -system_.force(t, q, v);
@@ -100,7 +91,7 @@ class ExplicitStepper : public BasicExplicitStepper<S, Audit> {
   }
 
   StepResult step() {
-    return Base::inlined_step([this] { return take_step(); });
+    return inlined_step<S>([this] { return take_step(); });
   }
 
  private:

@@ -10,6 +10,7 @@
 #include "integrators/explicit_stepper.h"
 #include "integrators/fits.h"
 #include "integrators/history.h"
+#include "integrators/inlining.h"
 #include "integrators/option.h"
 #include "integrators/recent_motions.h"
 #include "integrators/runge_kutta_munthe_kaas.h"
@@ -83,7 +84,7 @@ class FaltinsenAdamsStepper : public BasicExplicitStepper<S, Audit> {
   }
 
   StepResult step() {
-    return Base::inlined_step([this] { return take_step(); });
+    return inlined_step<S>([this] { return take_step(); });
   }
 
  private:

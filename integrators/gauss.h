@@ -139,11 +139,7 @@ class Gauss::Stepper {
   }
 
   StepResult step() {
-    if constexpr (inlines_all<S>) {
-      return step_inlined();
-    } else {
-      return take_step();
-    }
+    return inlined_step<S>([this] { return take_step(); });
   }
 
  private:
@@ -168,8 +164,6 @@ class Gauss::Stepper {
   std::size_t velocities() const { return std::size_t(velocity_size(system_)); }
   Eigen::Index unknowns() const { return coefficients_.stages * velocity_size(system_); }
   bool newton() const { return velocity_size(system_) <= most_velocities; }
-
-  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
 
   StepResult take_step() {
     if (Outcome turned = outcome_of_turn(system_, Velocity<S>(h_ * velocity_)); turned != Outcome::ok)

@@ -149,17 +149,10 @@ class GeneralizedAlpha::Stepper : public BasicStepper<S, form, Audit> {
   }
 
   StepResult step() {
-    if constexpr (inlines_all<S>) {
-      return step_inlined();
-    } else {
-      return take_step();
-    }
+    return inlined_step<S>([this] { return take_step(); });
   }
 
  private:
-  // In double all but the kernel's solve() is inlined: what is passed through memory stalls the processor.
-  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
-
   StepResult take_step() {
     Velocity<S> change = changes_.size() > 0 ? changes_.extrapolated() : zero_velocity(system());
     Multipliers<S> scaled_lambda;

@@ -72,11 +72,7 @@ class HalfExplicitStepper {
   }
 
   StepResult step() {
-    if constexpr (inlines_all<S>) {
-      return step_inlined();
-    } else {
-      return take_step();
-    }
+    return inlined_step<S>([this] { return take_step(); });
   }
 
  private:
@@ -91,8 +87,6 @@ class HalfExplicitStepper {
     Configuration<S> q;  // the new values
     Velocity<S> v;
   };
-
-  [[gnu::noinline, gnu::flatten]] StepResult step_inlined() { return take_step(); }
 
   StepResult take_step() {
     Stages stages;

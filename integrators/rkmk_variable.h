@@ -12,6 +12,7 @@
 #include "groups/decimal.h"
 #include "integrators/explicit_stepper.h"
 #include "integrators/fits.h"
+#include "integrators/inlining.h"
 #include "integrators/option.h"
 #include "integrators/runge_kutta_munthe_kaas.h"
 #include "integrators/step_control.h"
@@ -74,7 +75,7 @@ class RkmkVariable::Stepper : public BasicExplicitStepper<S, Audit> {
 
   // One step that is accepted.
   StepResult step() {
-    return Base::inlined_step([this] { return take_step(); });
+    return inlined_step<S>([this] { return take_step(); });
   }
 
  private:
@@ -128,8 +129,8 @@ class RkmkVariable::Stepper : public BasicExplicitStepper<S, Audit> {
     }
   }
 
-  // By the size of v and v' [Hairer, Norsett & Wanner, II.4], without their second evaluation: a hundredth of the time in which the
-  // velocity changes by itself, or the body turns by a radian.
+  // By the size of v and v' [Hairer, Norsett & Wanner, II.4], without their second evaluation: 0.1 tol^{1/5} of the time in which the
+  // velocity changes by itself or the body turns by a radian.
   T first_step(const T& length) const {
     const double v = to_double(T(velocity_.norm())), a = to_double(T(acceleration_.norm()));
     const double rate = v + a / (1.0 + v);
