@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "harness/errors.h"
 #include "harness/methods.h"
@@ -20,9 +21,9 @@ bool constrained(const Curve& curve) {
   });
 }
 
-std::string form_name(const Curve& curve) {
-  const Json& options = *curve.identity->options;
-  if (!options.contains("form")) return constrained(curve) ? "its own" : "unconstrained";
+std::string form_name(const CurveIdentity& identity, bool has_lambda) {
+  const Json& options = *identity.options;
+  if (!options.contains("form")) return has_lambda ? "its own" : "unconstrained";
   if (options.at("form") == "stabilized_index2") return "stabilized index 2";
   return options.value("modified_start", false) ? "index 3, modified start" : "index 3";
 }
@@ -109,10 +110,16 @@ OrderMatrix order_matrix(const std::vector<RecordRow>& records) {
   OrderMatrix matrix;
   std::vector<std::string> order;  // formulations, as they come
   std::map<std::string, Table> tables;
-  for (const Curve& curve : curves(records)) {
+  const std::vector<Curve> all = curves(records);
+  // Of the formulation, not of the curve: a method without forms whose runs all fail has neither a form nor a lambda to
+  // tell it by.
+  std::set<std::string> with_lambda;
+  for (const Curve& curve : all)
+    if (constrained(curve)) with_lambda.insert(curve.identity->formulation);
+  for (const Curve& curve : all) {
     const CurveIdentity& id = *curve.identity;
     const std::string& formulation = id.formulation;
-    const bool has_lambda = constrained(curve);
+    const bool has_lambda = with_lambda.contains(formulation);
     if (!tables.contains(formulation)) {
       order.push_back(formulation);
       std::vector<Column> columns{{.header = "method"}, {.header = "form"}};
@@ -121,7 +128,7 @@ OrderMatrix order_matrix(const std::vector<RecordRow>& records) {
       columns.push_back({.header = "window in h", .unit = "s"});
       tables.emplace(formulation, Table("", columns));
     }
-    Row line{method_name(id), form_name(curve)};
+    Row line{method_name(id), form_name(id, has_lambda)};
     double h_min = 0.0, h_max = 0.0;
     for (const auto& [quantity, title] : quantities()) {
       if (!has_lambda && quantity.component == "lambda") continue;
@@ -132,7 +139,7 @@ OrderMatrix order_matrix(const std::vector<RecordRow>& records) {
       line.push_back(measured(judgement, expected));
       Row row{formulation,
               method_name(id),
-              form_name(curve),
+              form_name(id, has_lambda),
               id.start,
               describe(quantity),
               std::int64_t(expected),
@@ -155,7 +162,7 @@ OrderMatrix order_matrix(const std::vector<RecordRow>& records) {
       }
       matrix.rows.push_back(std::move(row));
     }
-    line.push_back(fmt::format("{:.2g} to {:.2g}", h_min, h_max));
+    line.push_back(h_max > 0.0 ? fmt::format("{:.2g} to {:.2g}", h_min, h_max) : "");
     tables.at(formulation).add_row(std::move(line));
   }
   for (const std::string& formulation : order)

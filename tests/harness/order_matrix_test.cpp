@@ -63,6 +63,22 @@ TEST(OrderMatrix, ConfirmsWhatFallsAsExpectedAndNothingElse) {
   }
 }
 
+TEST(OrderMatrix, ACurveOfFailuresOfAMethodWithoutFormsStandsUnderLambdaToo) {
+  std::vector<Json> records;
+  for (int i = 0; i < 7; ++i)
+    records.push_back(power_law_record({.k = 3, .step_size = 1e-3 * std::pow(10.0, -i / 6.0)}, 3.0));
+  Json failed = records.back();
+  failed["integrator"] = "half_explicit";
+  failed["options"] = Json{{"tableau", "herk4"}, {"projection", false}};
+  failed["outcome"] = "newton_diverged";
+  failed["failure"] = Json{{"time", 0.5}, {"message", "it does not converge"}};
+  failed.erase("errors");
+  records.push_back(failed);
+  const OrderMatrix matrix = order_matrix(record_rows(records));
+  EXPECT_EQ(matrix.entries, 12);  // of two methods: q, v and lambda, at the end and largest
+  EXPECT_NE(matrix.markdown.find("no order"), std::string::npos) << matrix.markdown;
+}
+
 TEST(OrderMatrix, AnExpectedOrderOfZeroIsMetByAnErrorThatDoesNotFall) {
   const std::vector<RecordRow> flat = curve_records(0.0), falling = curve_records(1.0);
   Curve curve;
