@@ -1,5 +1,5 @@
 # liebench_embed(TARGET FUNCTION HEADER FILES...): compiles text files into TARGET, so that the program finds them
-# wherever it is installed. FUNCTION(name), declared in HEADER, returns the text of a file by its name.
+# wherever it is installed. FUNCTION(name), declared in HEADER, returns the text of a file by its name, FUNCTION_names() all names.
 function(liebench_embed target function header)
   set(source "${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp")
   add_custom_command(

@@ -1,9 +1,11 @@
-# Writes OUTPUT: a function that returns the text of one of FILES (relative to BASE) by its file name.
+# Writes OUTPUT: a function that returns the text of one of FILES (relative to BASE) by its file name, and one that returns the names.
 set(text "#include \"${HEADER}\"\n\nnamespace liebench {\n\nstd::string_view ${FUNCTION}(std::string_view name) {\n")
+set(names "")
 foreach(file IN LISTS FILES)
   file(READ "${BASE}/${file}" content)
   get_filename_component(name "${file}" NAME)
   string(APPEND text "  if (name == \"${name}\") return R\"~~~~(${content})~~~~\";\n")
+  string(APPEND names "\"${name}\", ")
 endforeach()
-string(APPEND text "  return {};\n}\n\n}  // namespace liebench\n")
+string(APPEND text "  return {};\n}\n\nstd::vector<std::string_view> ${FUNCTION}_names() { return {${names}}; }\n\n}  // namespace liebench\n")
 file(WRITE "${OUTPUT}" "${text}")

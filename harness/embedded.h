@@ -1,11 +1,17 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 namespace liebench {
 
 // The text of a file that the build compiled into the program (studies and schemas) by its file name; empty
 // where there is none of this name.
 std::string_view embedded_file(std::string_view name);
+std::vector<std::string_view> embedded_file_names();
+
+// The same of the scenes in problems/scenes.
+std::string_view embedded_scene(std::string_view name);
+std::vector<std::string_view> embedded_scene_names();
 
 }  // namespace liebench

@@ -20,23 +20,33 @@ namespace {
 const Quantity end_error{"q", "end_relative"};  // of q
 
 struct Problem {
-  bool constrained, fast;
   const char* title;
+  bool (*is)(const CurveIdentity&);
 };
-constexpr std::array problems_shown{
-    Problem{false, true, "fast top, no constraints"}, Problem{true, true, "fast top, constrained"},
-    Problem{false, false, "slow top, no constraints"}, Problem{true, false, "slow top, constrained"}};
-
-bool belongs(const CurveIdentity& c, const Problem& problem) {
-  const bool constrained = c.formulation != "SO3" && c.formulation != "S3";
-  const bool fast = c.parameters->at("angular_velocity").at(1).get<double>() > 10.0;
-  return constrained == problem.constrained && fast == problem.fast;
+bool is_fast(const CurveIdentity& c) {
+  return c.parameters->at("angular_velocity").at(1).get<double>() > 10.0;
 }
+bool is_constrained(const CurveIdentity& c) {
+  return c.formulation != "SO3" && c.formulation != "S3";
+}
+template <bool constrained, bool fast>
+bool is_top(const CurveIdentity& c) {
+  return c.problem == "heavy_top" && is_constrained(c) == constrained && is_fast(c) == fast;
+}
+constexpr std::array problems_shown{
+    Problem{"fast top, no constraints", is_top<false, true>},
+    Problem{"fast top, constrained", is_top<true, true>},
+    Problem{"slow top, no constraints", is_top<false, false>},
+    Problem{"slow top, constrained", is_top<true, false>},
+    Problem{"slow top on a soft mount",
+            [](const CurveIdentity& c) { return c.problem == "top_on_soft_mount"; }},
+    Problem{"slow top on a stiff, damped mount",
+            [](const CurveIdentity& c) { return c.problem == "top_on_stiff_mount"; }}};
 
 std::vector<RecordRow> rows_of(const std::vector<RecordRow>& records, const Problem& problem) {
   std::vector<RecordRow> rows;
   for (const RecordRow& record : records)
-    if (belongs(*record.curve, problem)) rows.push_back(record);
+    if (problem.is(*record.curve)) rows.push_back(record);
   return rows;
 }
 
@@ -83,11 +93,10 @@ bool is(const CurveIdentity& c, const Shown& shown) {
 
 Figure field_figure(const std::vector<RecordRow>& records) {
   const Abscissa& x = dearest_abscissa(records);
-  Figure figure{
-      .title = "What accuracy costs: methods and solvers on the heavy top over 2 s, from initial values",
-      .rows = 2,
-      .columns = 2,
-      .panels = {}};
+  Figure figure{.title = "What accuracy costs: methods and solvers on the heavy top, from initial values",
+                .rows = 3,
+                .columns = 2,
+                .panels = {}};
   for (const Problem& problem : problems_shown) {
     Panel panel{.title = problem.title, .x_label = std::string(x.label), .y_label = "relative error of q"};
     for (const Shown& each : shown()) {
@@ -97,7 +106,7 @@ Figure field_figure(const std::vector<RecordRow>& records) {
                     .mark = each.mark,
                     .tag = each.tag};
       for (const RecordRow& record : records) {
-        if (!belongs(*record.curve, problem) || !is(*record.curve, each)) continue;
+        if (!problem.is(*record.curve) || !is(*record.curve, each)) continue;
         const auto value = value_of(record, x);
         if (const auto error = error_of(record, end_error); error && value)
           series.points.push_back({*value, *error});
@@ -115,7 +124,8 @@ std::string field_report(const std::vector<RecordRow>& records) {
   const bool times = all_timed(records);
   std::string text =
       "# The field\n\n"
-      "Written by `liebench figures`; do not edit. The heavy top over 2 s in double precision, every method "
+      "Written by `liebench figures`; do not edit. The heavy top over 2 s (on a mount: 1 s) in double "
+      "precision, every method "
       "from initial "
       "values alone; errors are the relative error of q at the end. Numbers are interpolated between runs "
       "(rules: "

@@ -11,10 +11,11 @@
 
 namespace liebench {
 
-// Error of q against computing time (operations, where no run was timed): without and with constraints, the fast and the slow top.
+// Error of q against computing time (operations, where no run was timed): without and with constraints, the fast and the slow top,
+// on a soft and a stiff mount.
 Figure field_figure(const std::vector<RecordRow>& records);
 
-// For the same four problems, what every method needs for some errors of q.
+// For the same problems, what every method needs for some errors of q.
 std::string field_report(const std::vector<RecordRow>& records);
 
 }  // namespace liebench

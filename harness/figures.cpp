@@ -296,7 +296,7 @@ const std::vector<PaperFigure>& paper_figures() {
       {"cost_accuracy", {"cost_accuracy.json"}, true},
       {"field",
        {"field_unconstrained.json", "field_constrained.json", "field_tolerance.json",
-        "field_tolerance_constrained.json"},
+        "field_tolerance_constrained.json", "field_mount.json", "field_mount_tolerance.json"},
        true,
        {"field_outside.json", "field_outside_constrained.json"}},
       {"verification",

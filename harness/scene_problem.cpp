@@ -201,7 +201,7 @@ struct SceneEntry {
 
 std::unique_ptr<SceneEntry> make_entry(const std::string& file) {
   auto entry = std::make_unique<SceneEntry>();
-  const Json content = read_json_file(file, largest_scene_file);
+  const Json content = read_scene_json(file);
   entry->scene = assemble(read_scene_file(file), file);
   entry->name = entry->scene.scene.name;
   entry->summary = entry->scene.scene.summary;

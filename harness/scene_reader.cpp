@@ -1,11 +1,16 @@
 #include "harness/scene_reader.h"
 
+#include <fmt/format.h>
+
+#include "harness/embedded.h"
 #include "harness/errors.h"
 #include "harness/scene_parts.h"
 
 namespace liebench {
 
 namespace {
+
+constexpr std::string_view builtin = "builtin:";
 
 // A list that may be left out or empty.
 std::size_t list_size(const JsonView& scene, const char* key) {
@@ -55,8 +60,27 @@ SceneDescription read_scene(const Json& json, const std::string& where) {
   return scene;
 }
 
+std::vector<std::string> builtin_scenes() {
+  std::vector<std::string> names;
+  for (const std::string_view name : embedded_scene_names())
+    names.push_back(std::string(builtin) + std::string(name.substr(0, name.rfind('.'))));
+  return names;
+}
+
+Json read_scene_json(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  if (!name.starts_with(builtin)) return read_json_file(file, largest_scene_file);
+  const std::string_view text = embedded_scene(name.substr(builtin.size()) + ".json");
+  if (text.empty()) {
+    const std::vector<std::string> names = builtin_scenes();
+    throw InputError(name, fmt::format("no such scene; in the program are {}{}", quoted_list(names),
+                                       suggestion(name, names)));
+  }
+  return parse_json(text, name);
+}
+
 SceneDescription read_scene_file(const std::filesystem::path& file) {
-  const Json json = read_json_file(file, largest_scene_file);
+  const Json json = read_scene_json(file);
   try {
     return read_scene(json);
   } catch (const InputError& error) {

@@ -20,6 +20,7 @@ struct Fraction {
   std::int64_t root_three = 0;
 
   constexpr bool is_zero() const { return numerator == 0 && root_three == 0; }
+  constexpr bool operator==(const Fraction&) const = default;
 };
 
 namespace detail {

@@ -9,6 +9,7 @@
 #include "harness/errors.h"
 #include "harness/methods.h"
 #include "harness/problems.h"
+#include "harness/scene_reader.h"
 #include "harness/stability/case.h"
 #include "harness/strict_json.h"
 
@@ -39,6 +40,11 @@ void list(const std::string& what) {
   if (what == "stability") {
     for (const StabilityCase& entry : stability_cases())
       fmt::print("{:<20} {}\n", entry.name, entry.question);
+    return;
+  }
+  if (what == "scenes") {
+    for (const std::string& scene : builtin_scenes())
+      fmt::print("{:<28} {}\n", scene, read_scene_file(scene).summary);
     return;
   }
   if (what == "problems") {
@@ -170,9 +176,9 @@ void describe(const std::string& name) {
 void add_list(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("list", "List what the program knows");
   auto what = std::make_shared<std::string>();
-  command->add_option("what", *what, "problems, integrators, effects or stability")
+  command->add_option("what", *what, "problems, integrators, effects, scenes or stability")
       ->required()
-      ->check(CLI::IsMember({"problems", "integrators", "effects", "stability"}));
+      ->check(CLI::IsMember({"problems", "integrators", "effects", "scenes", "stability"}));
   command->footer("Example:\n  liebench list integrators");
   command->callback([what] { list(*what); });
 }

@@ -40,7 +40,8 @@ class SceneReference {
   struct Node {
     System::Vector q, v, lambda;
   };
-  std::vector<Node> trajectory(std::uint64_t steps) const;
+  // Of steps + 1 nodes; empty where it stops and may.
+  std::vector<Node> trajectory(std::uint64_t steps, bool may_stop) const;
   double distance(const Node& a, const Node& b) const;
 
   std::shared_ptr<const SceneModel<Extended>> model_;

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "harness/errors.h"
+#include "harness/references/scene_reference.h"
 #include "problems/scene_examples.h"
 #include "problems/scene_model.h"
 #include "tests/harness/sample_scenes.h"
@@ -59,8 +61,33 @@ Eigen::Vector3d turning_acceleration(const Eigen::VectorXd& a, Eigen::Index i) {
   return a.segment<3>(6 * i + 3);
 }
 
+TEST(Scenes, AreCompiledIntoTheProgram) {
+  std::vector<std::string> names;
+  for (const auto& file : scene_files()) {
+    names.push_back("builtin:" + file.stem().string());
+    EXPECT_EQ(read_scene_json(names.back()), read_scene_json(file));
+  }
+  std::vector<std::string> listed = builtin_scenes();
+  std::sort(listed.begin(), listed.end());
+  EXPECT_EQ(listed, names);
+  try {
+    read_scene_file("builtin:bricart");
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.place(), "builtin:bricart");
+    EXPECT_NE(error.message().find("did you mean \"builtin:bricard\"?"), std::string::npos)
+        << error.message();
+  }
+}
+
+// In 100 and 200 steps its explicit method would end at once: the mount takes 50 microseconds.
+TEST(Scenes, WhatIsStiffHasAReference) {
+  const SceneReference reference(assemble(read_scene_file("builtin:top_on_stiff_mount"), "mount"), 0.05);
+  EXPECT_LT(reference.error_estimate(), 1e-12);
+}
+
 TEST(Scenes, AllAreValidByTheSchemaAndAcceptedUnderTheNameOfTheirFile) {
-  ASSERT_EQ(scene_files().size(), 14u);
+  ASSERT_EQ(scene_files().size(), 16u);
   for (const auto& file : scene_files()) {
     std::ifstream stream(file);
     const std::string text(std::istreambuf_iterator<char>(stream), {});

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -15,6 +17,7 @@
 #include "integrators/list.h"
 #include "problems/audited_system.h"
 #include "problems/heavy_top.h"
+#include "problems/linear_oscillator.h"
 #include "tests/support/heavy_top_motion.h"
 #include "tests/support/heavy_top_samples.h"
 #include "tests/support/observed_order.h"
@@ -33,7 +36,8 @@ std::array<double, 2> runge_kutta_errors(const HeavyTopMotion& motion, const S& 
   auto start = motion.point(system, Extended(0.0));
   NoAudit audit;
   for (int n = 0; n < steps; ++n)
-    EXPECT_EQ(index1_step(system, T(h * T(double(n))), h, start.q, start.v, audit).outcome, Outcome::ok);
+    EXPECT_EQ(index1_step(system, T(h * T(double(n))), h, start.q, start.v, audit).result.outcome,
+              Outcome::ok);
   const auto exact = motion.point(system, Extended(0.5));
   return {S::Group::separation(exact.q, start.q).norm(), to_double((start.v - exact.v).norm())};
 }
@@ -61,7 +65,7 @@ TEST(RungeKuttaMuntheKaas, CountsSevenEvaluationsOfTheDynamicsAStep) {
     KernelAudit audit;
     auto q = system.initial_configuration();
     auto v = system.initial_velocity();
-    EXPECT_EQ(index1_step(system, 0.0, 0.01, q, v, audit).outcome, Outcome::ok);
+    EXPECT_EQ(index1_step(system, 0.0, 0.01, q, v, audit).result.outcome, Outcome::ok);
     const SystemCalls evaluations = SystemCalls::counts() - before;
     const GroupCalls calls = GroupCalls::counts() - calls_before;
     EXPECT_EQ(evaluations.forces, 7u);
@@ -195,6 +199,55 @@ TEST(SelfStart, SaysThatTheMatrixIsSingularWhereAConstraintIsRedundant) {
   std::vector<SolutionPoint<S>> points(3);
   NoAudit audit;
   EXPECT_EQ(self_start<S>(S(), 0.0, 0.1, points, audit).outcome, Outcome::singular_matrix);
+}
+
+TEST(RungeKuttaMuntheKaas, SeesHowStiffADamperIs) {
+  for (const double z : {0.1, 1.0, 10.0, 1e3}) {
+    const double h = 0.01;
+    const LinearOscillator<double> system(z / h, 0.0);
+    LinearOscillator<double>::Vector q(1.0), v(1.0);
+    NoAudit audit;
+    const auto step = index1_step(system, 0.0, h, q, v, audit);
+    EXPECT_EQ(step.result.outcome, Outcome::ok);
+    // The velocities of two stages are -z / h times as far apart as their positions.
+    EXPECT_NEAR(step.stiffness, z * z / (1.0 + z), 1e-6 * z) << z;
+  }
+}
+
+// Largest error at the points, in units of the solution at t = 0.
+double starting_error(const LinearOscillator<double>& system, std::complex<double> a, std::complex<double> b,
+                      double h) {
+  using S = LinearOscillator<double>;
+  std::vector<SolutionPoint<S>> points(6);
+  NoAudit audit;
+  EXPECT_EQ(self_start<S>(system, 0.0, h, points, audit).outcome, Outcome::ok);
+  double error = 0.0;
+  for (const SolutionPoint<S>& p : points) {
+    // x(0) = 1, x'(0) = 0
+    const std::complex<double> x = (b * std::exp(a * p.t) - a * std::exp(b * p.t)) / (b - a);
+    error = std::max(error, std::abs(p.q(0) - x.real()));
+  }
+  return error;
+}
+
+TEST(SelfStart, TakesSmallerStepsWhereSomethingIsStiff) {
+  // Eigenvalues -10,000 and -1 times 1/s: in one step of 10 ms the fast one would grow by (100)^6 / 6!.
+  const double root = std::sqrt(1e8 / 4.0 - 1e4);
+  EXPECT_LE(starting_error(LinearOscillator<double>(1e4, 1e4), -5e3 - root, -5e3 + root, 1e-2), 1e-12);
+  // A spring that turns by 100 rad in a step: in 128 pieces of 0.8 rad each loses up to (0.8)^7 / 7! of the radius, and there
+  // are 640 of them.
+  const std::complex<double> omega(0.0, 1e4);
+  EXPECT_LE(starting_error(LinearOscillator<double>(0.0, 1e8), omega, -omega, 1e-2), 0.1);
+}
+
+TEST(SelfStart, APieceOfAStepIsNoReasonToTurnByMoreThanPiInAStep) {
+  // A rotation by 4 rad between two points: what lies between them would be lost.
+  HeavyTopParameters p = slow_top();
+  p.angular_velocity = {0.0, 400.0, 0.0};
+  using S = HeavyTopSO3<double>;
+  std::vector<SolutionPoint<S>> points(3);
+  NoAudit audit;
+  EXPECT_EQ(self_start<S>(S(p), 0.0, 0.01, points, audit).outcome, Outcome::rotation_too_large);
 }
 
 TEST(SelfStart, SaysThatForcesAreNoNumbers) {

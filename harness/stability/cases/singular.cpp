@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "harness/embedded.h"
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
 #include "problems/scene_examples.h"
@@ -103,7 +102,7 @@ Plan four_bar_through_flat() {
 }
 
 Plan bricard() {
-  return {assembled(read_scene(parse_json(embedded_file("bricard.json"), "bricard"))),
+  return {assembled(read_scene_file("builtin:bricard")),
           1e-3,
           2.0,
           [](const WatchedState& first, const WatchedState& last) { return energy_error(first, last, 9.81); },
