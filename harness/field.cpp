@@ -22,6 +22,7 @@ const Quantity end_error{"q", "end_relative"};  // of q
 struct Problem {
   const char* title;
   bool (*is)(const CurveIdentity&);
+  bool mount = false;
 };
 bool is_fast(const CurveIdentity& c) {
   return c.parameters->at("angular_velocity").at(1).get<double>() > 10.0;
@@ -39,9 +40,9 @@ constexpr std::array problems_shown{
     Problem{"slow top, no constraints", is_top<false, false>},
     Problem{"slow top, constrained", is_top<true, false>},
     Problem{"slow top on a soft mount",
-            [](const CurveIdentity& c) { return c.problem == "top_on_soft_mount"; }},
+            [](const CurveIdentity& c) { return c.problem == "top_on_soft_mount"; }, true},
     Problem{"slow top on a stiff, damped mount",
-            [](const CurveIdentity& c) { return c.problem == "top_on_stiff_mount"; }}};
+            [](const CurveIdentity& c) { return c.problem == "top_on_stiff_mount"; }, true}};
 
 std::vector<RecordRow> rows_of(const std::vector<RecordRow>& records, const Problem& problem) {
   std::vector<RecordRow> rows;
@@ -57,9 +58,17 @@ struct Shown {
   std::string label, tag;
   int style, mark;
   bool outside = false;
+  bool on_mounts_only = false;  // where it is what stiffness asks for
 };
 const std::vector<Shown>& shown() {
   static const std::vector<Shown> list{
+      {.integrator = "bliedf2nd",
+       .options = {{"k", 2}},
+       .label = "BLieDF2nd, k = 2",
+       .tag = "B2",
+       .style = 0,
+       .mark = 3,
+       .on_mounts_only = true},
       {"bliedf2nd", {{"k", 4}}, "BLieDF2nd, k = 4", "B4", 0, 0},
       {"bliedf2nd", {{"k", 6}}, "BLieDF2nd, k = 6", "B6", 0, 1},
       {"bliedf2nd_variable", {}, "BLieDF2nd, variable", "Bv", 0, 2},
@@ -100,6 +109,7 @@ Figure field_figure(const std::vector<RecordRow>& records) {
   for (const Problem& problem : problems_shown) {
     Panel panel{.title = problem.title, .x_label = std::string(x.label), .y_label = "relative error of q"};
     for (const Shown& each : shown()) {
+      if (each.on_mounts_only && !problem.mount) continue;
       Series series{.label = each.label,
                     .style = each.style,
                     .secondary = each.outside,

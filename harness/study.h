@@ -44,7 +44,7 @@ struct Study {
 inline constexpr double most_steps = 1e9;
 
 // Version of the numerical code: part of every key, raised whenever a change alters results.
-inline constexpr int numerical_version = 3;
+inline constexpr int numerical_version = 4;
 
 // Throws InputError with the JSON pointer of the first thing that is wrong.
 Study read_study(const Json& study);
