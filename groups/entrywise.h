@@ -33,6 +33,12 @@ template <class Visitor>
   }
 }
 
+// |x| of every scalar.
+template <class T>
+T abs_of(const T& x) {
+  return x < T(0.0) ? T(-x) : x;
+}
+
 // Whether that pays: in double, where the size is known at run time only.
 template <class Vector>
 inline constexpr bool goes_by_entries =

@@ -214,8 +214,6 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
   static constexpr double shortest_part = 1e-12;
   static constexpr double longest_turn = 0.9 * std::numbers::pi;
 
-  static T abs_of(const T& x) { return x < T(0.0) ? T(-x) : x; }
-
   // The longest step up to h that divides what is left of the interval: so no step is cut at its end, which in the
   // index-3 form would cost the digits of lambda.
   T dividing(double h) const {

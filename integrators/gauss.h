@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "groups/entrywise.h"
 #include "integrators/audit.h"
 #include "integrators/dense_inverse.h"
 #include "integrators/fits.h"
@@ -337,7 +338,6 @@ class Gauss::Stepper {
   static void take_size(const Linear& size, Linear& largest) {
     if (!(size <= largest)) largest = size;
   }
-  static Linear abs_of(const Linear& x) { return x < Linear(0.0) ? Linear(-x) : x; }
 
   bool acceleration(const T& t, const Configuration<S>& q, const Velocity<S>& v, Velocity<S>& F) {
     const Velocity<S> force = -system_.force(t, q, v);

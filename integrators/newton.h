@@ -298,7 +298,6 @@ class NewtonKernel {
     return largest(Velocity<S>(Equation::change(r, system_))) <= allowed * sum;
   }
   static bool is_finite(const Unknowns& r) { return std::isfinite(to_double(T(r.squaredNorm()))); }
-  static Linear abs_of(const Linear& x) { return x < Linear(0.0) ? Linear(-x) : x; }
 
   // Corrections in units of round-off of the unknowns; and the largest |d_i| of z.
   [[gnu::always_inline]] Linear weighted_norm(const Correction& d, const Unknowns& z, Linear scale,

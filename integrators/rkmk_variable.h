@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "groups/decimal.h"
+#include "groups/entrywise.h"
 #include "integrators/explicit_stepper.h"
 #include "integrators/fits.h"
 #include "integrators/inlining.h"
@@ -139,7 +140,6 @@ class RkmkVariable::Stepper : public BasicExplicitStepper<S, Audit> {
     const T wanted = T(length < T(0.0) ? -h : h);
     return abs_of(wanted) < abs_of(length) ? wanted : length;
   }
-  static T abs_of(const T& x) { return x < T(0.0) ? T(-x) : x; }
 
   static constexpr double shortest_part = 1e-12;
   double tolerance_;
