@@ -211,12 +211,12 @@ TEST(OrderControl, ShortensWhatIsRejectedAndFallsBackToOrderOne) {
   // (1.2 4^{1/4})^{-1}
   EXPECT_NEAR(control.reject({.lower = 40.0, .same = 4.0}), 0.589, 0.001);
   EXPECT_EQ(control.order(), 3);
-  EXPECT_EQ(control.reject({.lower = 1.5, .same = 4.0}), 1.0 / (1.3 * std::cbrt(1.5)));
+  EXPECT_DOUBLE_EQ(control.reject({.lower = 1.5, .same = 4.0}), 1.0 / (1.3 * std::cbrt(1.5)));
   EXPECT_EQ(control.order(), 2);
-  EXPECT_EQ(control.reject({.lower = 40.0, .same = 4.0}), 0.2);
+  EXPECT_DOUBLE_EQ(control.reject({.lower = 40.0, .same = 4.0}), 0.2);
   EXPECT_EQ(control.order(), 1);
   EXPECT_EQ(control.fail(), 0.25);
-  EXPECT_EQ(control.reject({.same = std::numeric_limits<double>::quiet_NaN()}), 0.2);
+  EXPECT_DOUBLE_EQ(control.reject({.same = std::numeric_limits<double>::quiet_NaN()}), 0.2);
 }
 
 }  // namespace
