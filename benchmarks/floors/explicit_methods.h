@@ -20,12 +20,6 @@ inline Vec3 top_acceleration(const Mat3& R, const Vec3& w) {
           ((top::tip1 - top::tip2) * w.x * w.y - g * R.zx) * (1.0 / top::tip3)};
 }
 
-// T^{-1}(v) w
-inline Vec3 tangent_inverse_times(const Vec3& v, const Vec3& w) {
-  const Vec3 once = cross(v, w);
-  return w + 0.5 * once + cotangent_defect(squared_norm(v)) * cross(v, once);
-}
-
 // What the floors of explicit methods share: state and start.
 class ExplicitFloor {
  public:

@@ -17,26 +17,6 @@ inline Vec6 with_rotation(const Vec6& v, const Vec3& w) {
   return {v.x, w};
 }
 
-// The rotation vector of R by its unit quaternion and the series of atan; angles beyond 1/4, which the benchmark never
-// meets, by the groups' own function.
-inline Vec3 log(const Mat3& R) {
-  const double trace = R.xx + R.yy + R.zz;
-  const Vec3 doubled{R.zy - R.yz, R.xz - R.zx, R.yx - R.xy};
-  const double root = std::sqrt(trace + 1.0);
-  const double t_squared = squared_norm(doubled) / ((trace + 1.0) * (trace + 1.0));
-  if (!(trace > 1.0) || !(t_squared <= atan_series_reach)) {
-    Eigen::Matrix3d m;
-    m << R.xx, R.xy, R.xz, R.yx, R.yy, R.yz, R.zx, R.zy, R.zz;
-    return from_eigen(SO3<double>::log(m));
-  }
-  constexpr double a[9] = {1.0,       -1.0 / 3, 1.0 / 5,   -1.0 / 7, 1.0 / 9,
-                           -1.0 / 11, 1.0 / 13, -1.0 / 15, 1.0 / 17};
-  double p = a[8];
-  for (int i = 7; i >= 0; --i) p = p * t_squared + a[i];
-  // Axis doubled / (2 root), cosine root / 2.
-  return (2.0 / (root * root) * p) * doubled;
-}
-
 enum class FaltinsenVariant { exact, bch };
 
 // v = w + (T(u) - I) w with u = h Dq, Dq = base + d, and only the rotation curved: w - Dq = slope d + `ahead`.

@@ -17,8 +17,9 @@
 // trajectory to round-off, which the benchmark program checks before it measures. What the general code takes more time
 // for than its floor is the price of its generality.
 //
-// Tops (one step of Newton's iteration): so3_top.h, index3_top.h, stabilized_top.h. Methods: bliedf2nd.h,
-// generalized_alpha.h, faltinsen_bdf.h.
+// Tops (one step of Newton's iteration): so3_top.h, index3_top.h, stabilized_top.h, and momentum_top.h for methods that balance the
+// momentum. Where a matrix serves one solution alone (half-explicit stages, projections), what the diagonal mass matrix leaves of it,
+// tip_force.h. The other files are methods.
 
 namespace liebench::floors {
 
@@ -68,6 +69,26 @@ double distance(const Configuration& a, const Eigen::Matrix3d& R) {
 template <class Configuration>
 double distance(const Configuration& a, const std::pair<Eigen::Vector3d, Eigen::Matrix3d>& q) {
   return std::max(max_norm(a.R - from_eigen(q.second)), max_norm(a.x - from_eigen(q.first)));
+}
+
+// The rotation vector of R by its unit quaternion and the series of atan; angles beyond 1/4, which the benchmark never
+// meets, by the groups' own function.
+inline Vec3 log(const Mat3& R) {
+  const double trace = R.xx + R.yy + R.zz;
+  const Vec3 doubled{R.zy - R.yz, R.xz - R.zx, R.yx - R.xy};
+  const double root = std::sqrt(trace + 1.0);
+  const double t_squared = squared_norm(doubled) / ((trace + 1.0) * (trace + 1.0));
+  if (!(trace > 1.0) || !(t_squared <= atan_series_reach)) {
+    Eigen::Matrix3d m;
+    m << R.xx, R.xy, R.xz, R.yx, R.yy, R.yz, R.zx, R.zy, R.zz;
+    return from_eigen(SO3<double>::log(m));
+  }
+  constexpr double a[9] = {1.0,       -1.0 / 3, 1.0 / 5,   -1.0 / 7, 1.0 / 9,
+                           -1.0 / 11, 1.0 / 13, -1.0 / 15, 1.0 / 17};
+  double p = a[8];
+  for (int i = 7; i >= 0; --i) p = p * t_squared + a[i];
+  // Axis doubled / (2 root), cosine root / 2.
+  return (2.0 / (root * root) * p) * doubled;
 }
 
 // v and h v' affine in the change of the increment: BLieDF2nd and generalized-alpha.

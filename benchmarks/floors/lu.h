@@ -38,16 +38,16 @@ struct Lu {
   }
 
   void solve(const double (&b)[n], double (&x)[n]) const {
-#pragma GCC unroll 16
+#pragma GCC unroll 36
     for (int i = 0; i < n; ++i) x[i] = b[row[i]];
-#pragma GCC unroll 16
+#pragma GCC unroll 36
     for (int j = 0; j < n; ++j)
-#pragma GCC unroll 16
+#pragma GCC unroll 36
       for (int i = j + 1; i < n; ++i) x[i] -= x[j] * a[j][i];
-#pragma GCC unroll 16
+#pragma GCC unroll 36
     for (int j = n - 1; j >= 0; --j) {
       x[j] *= inverse_pivot[j];
-#pragma GCC unroll 16
+#pragma GCC unroll 36
       for (int i = 0; i < j; ++i) x[i] -= x[j] * a[j][i];
     }
   }

@@ -176,4 +176,10 @@ inline Mat3 tangent(const Vec3& v) {
   return skew_polynomial(v, -exp_coefficients(s).versine, tangent_coefficient(s));
 }
 
+// T^{-1}(v) w
+inline Vec3 tangent_inverse_times(const Vec3& v, const Vec3& w) {
+  const Vec3 once = cross(v, w);
+  return w + 0.5 * once + cotangent_defect(squared_norm(v)) * cross(v, once);
+}
+
 }  // namespace liebench::floors
