@@ -89,6 +89,7 @@ int main(int argc, char** argv) {
   liebench::benchmarks::add_faltinsen_bdf();
   liebench::benchmarks::add_explicit_methods();
   liebench::benchmarks::add_half_explicit();
+  liebench::benchmarks::add_momentum_methods();
   liebench::benchmarks::add_scenes();
   PairReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
