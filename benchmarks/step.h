@@ -151,6 +151,7 @@ void add_faltinsen_bdf();
 void add_explicit_methods();
 void add_half_explicit();
 void add_momentum_methods();
+void add_gauss();
 void add_scenes();
 
 }  // namespace liebench::benchmarks
