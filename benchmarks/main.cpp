@@ -91,6 +91,7 @@ int main(int argc, char** argv) {
   liebench::benchmarks::add_half_explicit();
   liebench::benchmarks::add_momentum_methods();
   liebench::benchmarks::add_gauss();
+  liebench::benchmarks::add_radau();
   liebench::benchmarks::add_scenes();
   PairReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

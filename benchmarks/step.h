@@ -152,6 +152,7 @@ void add_explicit_methods();
 void add_half_explicit();
 void add_momentum_methods();
 void add_gauss();
+void add_radau();
 void add_scenes();
 
 }  // namespace liebench::benchmarks
