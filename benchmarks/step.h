@@ -153,6 +153,7 @@ void add_half_explicit();
 void add_momentum_methods();
 void add_gauss();
 void add_radau();
+void add_symmetric_methods();
 void add_scenes();
 
 }  // namespace liebench::benchmarks
