@@ -93,6 +93,7 @@ int main(int argc, char** argv) {
   liebench::benchmarks::add_gauss();
   liebench::benchmarks::add_radau();
   liebench::benchmarks::add_symmetric_methods();
+  liebench::benchmarks::add_centred_bdf();
   liebench::benchmarks::add_scenes();
   PairReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

@@ -154,6 +154,7 @@ void add_momentum_methods();
 void add_gauss();
 void add_radau();
 void add_symmetric_methods();
+void add_centred_bdf();
 void add_scenes();
 
 }  // namespace liebench::benchmarks
