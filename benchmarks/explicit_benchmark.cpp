@@ -1,4 +1,5 @@
 #include "benchmarks/floors/explicit_methods.h"
+#include "benchmarks/floors/faltinsen_adams.h"
 #include "benchmarks/step.h"
 
 namespace liebench::benchmarks {
@@ -11,6 +12,8 @@ void add_explicit_methods() {
   add_pair<floors::MuntheKaas<butcher_six>, S>("rkmk/SO3/butcher6", Rkmk::Options{Rkmk::Tableau::butcher6});
   add_pair<floors::Cf4, S>("commutator_free/SO3", CommutatorFree::Options{});
   add_pair<floors::Cg3, S>("crouch_grossman/SO3", CrouchGrossman::Options{});
+  add_pair<floors::FaltinsenAdams<3>, S>("faltinsen_adams/SO3/k=3", FaltinsenAdams::Options{.k = 3});
+  add_pair<floors::FaltinsenAdams<4>, S>("faltinsen_adams/SO3/k=4", FaltinsenAdams::Options{.k = 4});
 }
 
 }  // namespace liebench::benchmarks
