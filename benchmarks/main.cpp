@@ -94,6 +94,7 @@ int main(int argc, char** argv) {
   liebench::benchmarks::add_radau();
   liebench::benchmarks::add_symmetric_methods();
   liebench::benchmarks::add_centred_bdf();
+  liebench::benchmarks::add_step_size_control();
   liebench::benchmarks::add_scenes();
   PairReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

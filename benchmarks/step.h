@@ -155,6 +155,7 @@ void add_gauss();
 void add_radau();
 void add_symmetric_methods();
 void add_centred_bdf();
+void add_step_size_control();
 void add_scenes();
 
 }  // namespace liebench::benchmarks
