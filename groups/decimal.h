@@ -1,10 +1,6 @@
 #pragma once
 
-#include <qd/dd_real.h>
-#include <qd/qd_real.h>
-
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -12,7 +8,8 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <type_traits>
+
+#include "groups/scalar.h"
 
 // The number that a double of a problem's data stands for. A study says -4.61538 and means -461538/100000;
 // the double nearest to it is 2e-16 away, which an extended-precision run sees from the seventeenth digit on.
@@ -53,32 +50,14 @@ inline ShortestDecimal shortest_decimal(double x) {
   return d;
 }
 
-// mantissa * 10^exponent to within 2^-106 relative: through quad-double, because the division of
-// double-double itself may err by a few units in its last place.
-inline dd_real to_double_double(const ShortestDecimal& d) {
-  const double high = static_cast<double>(d.mantissa);
-  const double low = static_cast<double>(d.mantissa - static_cast<std::int64_t>(high));
-  qd_real value{dd_real(high, low)};
-  constexpr int exact_power = 22;  // 10^22 is the largest power of ten that is a double
-  for (int left = std::abs(d.exponent); left > 0; left -= exact_power) {
-    double power = 1;
-    for (int i = std::min(left, exact_power); i > 0; --i) power *= 10;
-    if (d.exponent > 0) {
-      value *= power;
-    } else {
-      value /= qd_real(power);
-    }
-  }
-  return to_dd_real(value);
-}
-
 }  // namespace detail
 
 // The shortest decimal that rounds to x, as a T.
-//   double                        x itself
-//   dd_real                       within 2^-106 relative, as long as its low part does not underflow (|x| >
-//   1e-290) a number built from a string  (Boost.Multiprecision) its own rounding of the decimal a type with
-//   a Scalar member   (ceres::Jet) T(decimal<Scalar>(x)), a constant any other of <= 53 bits       T(x)
+//   double                              x itself
+//   a type with a Scalar member         (ceres::Jet) T(decimal<Scalar>(x)), a constant
+//   one whose traits read a decimal     (Extended) ScalarTraits<T>::decimal(x)
+//   a number built from a string        (Boost.Multiprecision) its own rounding of the decimal
+//   any other of at most 53 bits        T(x)
 // An infinity or NaN is passed on as T(x).
 template <class T>
 T decimal(double x) {
@@ -86,9 +65,8 @@ T decimal(double x) {
     return x;
   } else if constexpr (requires { typename T::Scalar; }) {
     return T(decimal<typename T::Scalar>(x));
-  } else if constexpr (std::same_as<T, dd_real>) {
-    if (!std::isfinite(x) || x == 0) return T(x);
-    return detail::to_double_double(detail::shortest_decimal(x));
+  } else if constexpr (requires { ScalarTraits<T>::decimal(x); }) {
+    return ScalarTraits<T>::decimal(x);
   } else if constexpr (std::constructible_from<T, std::string>) {
     return std::isfinite(x) ? T(detail::shortest_decimal_text(x)) : T(x);
   } else {

@@ -1,8 +1,12 @@
 #pragma once
 
-#include <ceres/jet.h>
-
 #include "groups/scalar.h"
+
+// Declared, not included: those who make Jets include <ceres/jet.h>, the others need no Ceres.
+namespace ceres {
+template <typename T, int N>
+struct Jet;
+}
 
 namespace liebench {
 

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <klu.h>
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <numeric>
 #include <type_traits>
 #include <utility>
@@ -17,14 +14,14 @@
 #include "groups/counted.h"
 #include "groups/flattened.h"
 #include "groups/scalar.h"
+#include "integrators/klu_factorization.h"
 #include "integrators/linear_solver.h"
 
 namespace liebench {
 
 // A square matrix whose entries are added in the same order each time it is formed, and the solution of linear systems with it:
-// dense LU with partial pivoting where it is small, SuiteSparse's KLU where it is not. The pattern, its ordering and the place of
-// each entry are found once; later matrices of the pattern are factorized with the pivots of the one before, as long as these
-// are good.
+// dense LU with partial pivoting where it is small, KLU where it is not (link liebench::scenes). The pattern, its ordering and the
+// place of each entry are found once.
 template <class T>
 class PatternedMatrix {
  public:
@@ -49,7 +46,7 @@ class PatternedMatrix {
         begins_(other.begins_),
         row_of_(other.row_of_),
         values_(other.values_) {
-    if (other.factors_ != nullptr) refactorize();
+    if (!other.sparse_.empty()) refactorize();
   }
   PatternedMatrix& operator=(const PatternedMatrix& other) {
     if (this != &other) *this = PatternedMatrix(other);
@@ -114,17 +111,6 @@ class PatternedMatrix {
     std::int32_t row, column;
     double value;
   };
-  struct Common : klu_common {
-    Common() { klu_defaults(this); }
-  };
-  struct FreeSymbolic {
-    Common* common;
-    void operator()(klu_symbolic* p) const { klu_free_symbolic(&p, common); }
-  };
-  struct FreeNumeric {
-    Common* common;
-    void operator()(klu_numeric* p) const { klu_free_numeric(&p, common); }
-  };
 
   // Columns one after the other, rows ascending; slots_[k] is the place of the k-th entry added.
   void find_pattern() {
@@ -157,36 +143,12 @@ class PatternedMatrix {
 
   bool refactorize() {
     if (dense_) return factorize_dense();
-    if (!finite()) return false;
-    const int n = int(size_);
-    if (symbolic_ == nullptr) {
-      common_ = std::make_unique<Common>();
-      symbolic_ = {klu_analyze(n, begins_.data(), row_of_.data(), common_.get()),
-                   FreeSymbolic{common_.get()}};
-      if (symbolic_ == nullptr) return false;
-    }
-    if (factors_ != nullptr) {
-      const bool done = klu_refactor(begins_.data(), row_of_.data(), values_.data(), symbolic_.get(),
-                                     factors_.get(), common_.get()) != 0;
-      klu_rgrowth(begins_.data(), row_of_.data(), values_.data(), symbolic_.get(), factors_.get(),
-                  common_.get());
-      // The old pivots serve while they do not let the entries grow.
-      if (done && common_->status == KLU_OK && common_->rgrowth > 1e-6) return count_factorization();
-    }
-    factors_ = {klu_factor(begins_.data(), row_of_.data(), values_.data(), symbolic_.get(), common_.get()),
-                FreeNumeric{common_.get()}};
-    if (factors_ == nullptr || common_->status != KLU_OK) {
-      factors_.reset();
-      return false;
-    }
-    return count_factorization();
-  }
-  // What a counting scalar would see.
-  bool count_factorization() const {
+    if (!finite() || !sparse_.factorize(begins_, row_of_, values_)) return false;
+    // What a counting scalar would see.
     if constexpr (std::is_same_v<T, Counted>) {
-      klu_flops(symbolic_.get(), factors_.get(), common_.get());
-      Counted::operations().multiply += std::uint64_t(common_->flops) / 2;
-      Counted::operations().add += std::uint64_t(common_->flops) / 2;
+      const auto pairs = std::uint64_t(sparse_.flops()) / 2;
+      Counted::operations().multiply += pairs;
+      Counted::operations().add += pairs;
       Counted::operations().divide += std::uint64_t(size_);
     }
     return true;
@@ -195,12 +157,11 @@ class PatternedMatrix {
   template <class Right, class Vector>
   void solve_sparse(const Right& b, Vector& result) const {
     Eigen::VectorXd x = b.template cast<double>();
-    klu_solve(symbolic_.get(), factors_.get(), int(size_), 1, x.data(), common_.get());
+    sparse_.solve(x.data());
     result = x.head(result.size()).template cast<T>();
     if constexpr (std::is_same_v<T, Counted>) {
-      const auto entries = std::uint64_t(factors_->lnz + factors_->unz);
-      Counted::operations().multiply += entries;
-      Counted::operations().add += entries;
+      Counted::operations().multiply += sparse_.entries();
+      Counted::operations().add += sparse_.entries();
     }
   }
 
@@ -405,9 +366,7 @@ class PatternedMatrix {
   std::vector<Entry> entries_;
   std::vector<std::int32_t> slots_, begins_, row_of_;
   std::vector<double> values_;
-  std::unique_ptr<Common> common_;
-  std::unique_ptr<klu_symbolic, FreeSymbolic> symbolic_{nullptr, FreeSymbolic{nullptr}};
-  std::unique_ptr<klu_numeric, FreeNumeric> factors_{nullptr, FreeNumeric{nullptr}};
+  KluFactorization sparse_;
 };
 
 }  // namespace liebench

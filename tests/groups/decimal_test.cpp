@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+#include "groups/extended.h"
+
 namespace liebench::decimal_test {
 namespace {
 
