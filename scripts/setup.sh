@@ -20,7 +20,7 @@ packages=(
   libeigen3-dev libceres-dev libsuitesparse-dev libboost-dev libqd-dev
   nlohmann-json3-dev rapidjson-dev libcli11-dev libfmt-dev libxxhash-dev libmuparser-dev
   'gnuplot-nox|gnuplot-qt|gnuplot-x11'
-  libgtest-dev libgmock-dev libvalijson-dev libbenchmark-dev
+  libgtest-dev libgmock-dev libvalijson-dev libbenchmark-dev 'pkgconf|pkg-config'
 )
 test_packages=(clang 'libclang-rt-14-dev|libclang-rt-[0-9]+-dev' 'llvm|llvm-[0-9]+'
   texlive-latex-recommended texlive-science)
