@@ -3,7 +3,7 @@
 #
 #   scripts/setup.sh [--tests] [--lint] [--sundials]
 #
-#   --tests      also what all tests need: clang with its sanitizers, LaTeX, pandas and matplotlib
+#   --tests      also what all tests need: clang with its sanitizers, LaTeX, pandas, matplotlib, Doxygen
 #   --lint       also what .ci/run needs beyond the builds: clang-format, clang-tidy, shellcheck, codespell, mypy
 #   --sundials   also SUNDIALS, with whose solvers liebench compares where it is there
 #   --help       this text
@@ -23,7 +23,7 @@ packages=(
   libgtest-dev libgmock-dev libvalijson-dev libbenchmark-dev 'pkgconf|pkg-config'
 )
 test_packages=(clang 'libclang-rt-14-dev|libclang-rt-[0-9]+-dev' 'llvm|llvm-[0-9]+'
-  texlive-latex-recommended texlive-science python3-pandas python3-matplotlib)
+  texlive-latex-recommended texlive-science python3-pandas python3-matplotlib doxygen)
 lint_packages=(clang-format clang-tidy shellcheck codespell mypy)
 
 while [ $# -gt 0 ]; do
