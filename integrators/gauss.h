@@ -184,7 +184,7 @@ class Gauss::Stepper {
     const Velocity<S> step = T(2.0) * turn_;
     if (const Outcome turned = outcome_of_turn(system_, step); turned != Outcome::ok) return {turned};
     Velocity<S> change = coefficients_.b[0] * F_[0];
-    for (std::size_t j = 1; j < stages(); ++j) change += coefficients_.b[j] * F_[j];
+    add_weighted(coefficients_.b, 1, F_, change);
     // Summed with what the sum rounded away before [Kahan 1965; Hairer, Lubich & Wanner 2006, VIII.5].
     const Velocity<S> corrected = h_ * change + rounding_;
     Velocity<S> sum = velocity_;
@@ -210,7 +210,7 @@ class Gauss::Stepper {
       }
       const auto& weights = coefficients_.extrapolation[i];
       F_[i] = weights[0] * last_F_[0];
-      for (std::size_t j = 1; j < stages(); ++j) F_[i] += weights[j] * last_F_[j];
+      add_weighted(weights, 1, last_F_, F_[i]);
     }
     put_velocities();
     for (std::size_t i = 0; i < stages(); ++i) K_[i] = V_[i];
@@ -296,16 +296,27 @@ class Gauss::Stepper {
   void put_velocities() {
     for (std::size_t i = 0; i < stages(); ++i) {
       V_[i] = velocity_;
-      for (std::size_t j = 0; j < stages(); ++j) V_[i] += step_a_[i][j] * F_[j];
+      add_weighted(step_a_[i], 0, F_, V_[i]);
     }
   }
   void put_angles() {
     turn_ = coefficients_.b[0] * K_[0];
-    for (std::size_t j = 1; j < stages(); ++j) turn_ += coefficients_.b[j] * K_[j];
+    add_weighted(coefficients_.b, 1, K_, turn_);
     turn_ *= h_ * T(0.5);
     for (std::size_t i = 0; i < stages(); ++i) {
       Theta_[i] = step_centred_[i][0] * K_[0];
-      for (std::size_t j = 1; j < stages(); ++j) Theta_[i] += step_centred_[i][j] * K_[j];
+      add_weighted(step_centred_[i], 1, K_, Theta_[i]);
+    }
+  }
+  // sum += sum_j weights[j] x[j], j = first, ...; in registers where the size is known.
+  void add_weighted(const typename GaussCoefficients<T>::Row& weights, std::size_t first, const Stages& x,
+                    Velocity<S>& sum) const {
+    if constexpr (m == run_time_size) {
+      for (std::size_t j = first; j < stages(); ++j) sum += weights[j] * x[j];
+    } else {
+      Velocity<S> local = sum;
+      for (std::size_t j = first; j < stages(); ++j) local += weights[j] * x[j];
+      sum = local;
     }
   }
 
@@ -313,22 +324,30 @@ class Gauss::Stepper {
     for (std::size_t d = 0; d < velocities(); ++d)
       residual_.data()[place + d] = to_linear(residual(Eigen::Index(d)));
   }
-  // x += inverse residual, column by column.
+  // x += inverse residual. Sums of rows in registers: in memory each waits for what was stored of it just before.
   void add_correction(const Inverse& inverse, Stages& x, Linear& change) {
     const std::size_t n = std::size_t(unknowns());
     Linear* const to = correction_.data();
-    for (std::size_t i = 0; i < n; ++i) to[i] = Linear(0.0);
-    for (std::size_t j = 0; j < n; ++j) {
-      const Linear* const column = inverse.data() + j * n;
-      const Linear factor = residual_.data()[j];
-      for (std::size_t i = 0; i < n; ++i) to[i] += column[i] * factor;
-    }
+    std::size_t row = 0;
+    for (; row + 6 <= n; row += 6) put_rows<6>(inverse.data() + row, n, to + row);
+    for (; row + 3 <= n; row += 3) put_rows<3>(inverse.data() + row, n, to + row);
+    for (; row < n; ++row) put_rows<1>(inverse.data() + row, n, to + row);
     std::size_t next = 0;
     for (std::size_t i = 0; i < stages(); ++i)
       for (std::size_t d = 0; d < velocities(); ++d, ++next) {
         x[i](Eigen::Index(d)) += T(to[next]);
         take_size(abs_of(to[next]), change);
       }
+  }
+  template <std::size_t rows>
+  [[gnu::always_inline]] void put_rows(const Linear* column, std::size_t n, Linear* to) const {
+    std::array<Linear, rows> sums;
+    for (std::size_t i = 0; i < rows; ++i) sums[i] = Linear(0.0);
+    for (std::size_t j = 0; j < n; ++j, column += n) {
+      const Linear factor = residual_.data()[j];
+      for (std::size_t i = 0; i < rows; ++i) sums[i] += column[i] * factor;
+    }
+    for (std::size_t i = 0; i < rows; ++i) to[i] = sums[i];
   }
   static const Velocity<S>& take(const Velocity<S>& residual, Linear& change) {
     for (Eigen::Index d = 0; d < residual.size(); ++d) take_size(abs_of(to_linear(residual(d))), change);
