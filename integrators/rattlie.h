@@ -1,14 +1,17 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "integrators/audit.h"
-#include "integrators/consistent_projection.h"
 #include "integrators/fits.h"
 #include "integrators/inlining.h"
 #include "integrators/option.h"
+#include "integrators/stage_solver.h"
 #include "integrators/variational_stepper.h"
 
 // RATTLie [Hante & Arnold 2021, RATTLie: a variational Lie group integration scheme for constrained mechanical
@@ -35,6 +38,13 @@ class RattlieStepper : public VariationalStepper<S, Audit> {
   using typename Base::T;
 
   explicit RattlieStepper(const S& system) : Base(system) {}
+
+  StepResult start(const T& h, std::span<const SolutionPoint<S>> points) {
+    const StepResult result = Base::start(h, points);
+    if constexpr (S::constraints != 0)
+      if (Base::constrained()) projection_.emplace(system()).prepare(system(), newton_.audit());
+    return result;
+  }
 
   StepResult step() {
     return inlined_step<S>([this] { return take_step(); });
@@ -80,22 +90,30 @@ class RattlieStepper : public VariationalStepper<S, Audit> {
   // the next step.
   StepResult project_and_look_ahead(const T& t, const Configuration<S>& q, const Velocity<S>& kicks,
                                     Velocity<S>& v, const Velocity<S>& f) requires ConstrainedSystem<S> {
-    const Multipliers<S> rate = -constraint_rate(system(), t, q, v);
-    Audit as_start;
-    const auto solution = solve_saddle_point(system(), q, kicks, rate, as_start);
-    if (!solution) return {Outcome::singular_matrix};
-    newton_.audit().factorization(FactorizationCause::refresh);
-    for (int pass = 0; pass < refinement_passes<T>; ++pass) newton_.audit().solve();
-    set(v, v + solution->x);
+    Audit& audit = newton_.audit();
+    projection_->take(system(), q);
+    projection_->shift(system(), q);
+    if (const Outcome outcome = projection_->factorize(system(), q, q, audit); outcome != Outcome::ok)
+      return {outcome};
+    const Multipliers<S> rate = -projection_->rate(system(), t, q, v);
+    Velocity<S> change = zero_velocity(system());
+    Multipliers<S> impulse = zero_multipliers(system());
+    projection_->solve(system(), q, q, kicks, rate, change, impulse, audit);
+    set(v, v + change);
     Base::keep(ahead_.change, ahead_.impulse);
     Solution next = ahead_;  // GCC does not see that it is written where it is read
     const StepResult result = Base::solve_from_velocity(t, q, v, f, next);
     if (result.outcome != Outcome::ok) return result;
-    set(lambda_, (solution->y + next.impulse) / h_);
+    set(lambda_, (impulse + next.impulse) / h_);
     Base::move_to(t, q, v, f);
     ahead_ = next;
     return result;
   }
+
+  // Of v on B v = 0, by the Schur complement where that is small.
+  struct NoProjection {};
+  using Projection = std::conditional_t<S::constraints == 0, NoProjection, std::optional<StageSolver<S>>>;
+  [[no_unique_address]] Projection projection_;
 };
 
 struct Rattlie {
