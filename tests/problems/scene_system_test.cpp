@@ -8,7 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "groups/extended.h"
+#include "problems/check_system.h"
 #include "problems/scene_model.h"
+#include "problems/scene_with_power.h"
 #include "tests/support/sample_scenes.h"
 
 namespace liebench::scene_system_test {
@@ -16,7 +19,6 @@ namespace {
 
 using System = SceneSystem<double>;
 using Vector = Eigen::VectorXd;
-using Matrix = Eigen::MatrixXd;
 
 constexpr std::array kinds{BodyKind::r3xso3, BodyKind::r3xs3, BodyKind::se3, BodyKind::s3_r3,
                            BodyKind::udq,    BodyKind::so3,   BodyKind::s3,  BodyKind::r3};
@@ -24,112 +26,17 @@ constexpr std::array joints{JointKind::spherical,   JointKind::revolute,  JointK
                             JointKind::cylindrical, JointKind::universal, JointKind::planar,
                             JointKind::fixed,       JointKind::distance,  JointKind::point_on_plane};
 
-// The pieces of linearize as dense matrices.
-struct DensePieces {
-  static constexpr bool wants_rate_gradient = true;
-  const System& system;
-  Matrix K, C, B, Z;
-  explicit DensePieces(const System& s) : system(s) {
-    const Eigen::Index m = velocity_size(s), l = s.multipliers();
-    K = C = Matrix::Zero(m, m);
-    B = Z = Matrix::Zero(l, m);
-  }
-  template <class Block>
-  void stiffness(int i, int j, const Block& block) {
-    add(K, place(i), place(j), block);
-  }
-  template <class Block>
-  void damping(int i, int j, const Block& block) {
-    add(C, place(i), place(j), block);
-  }
-  void turning_stiffness(int i, const Eigen::Matrix3d& block) { add(K, place(i) + 3, place(i) + 3, block); }
-  void turning_damping(int i, const Eigen::Matrix3d& block) { add(C, place(i) + 3, place(i) + 3, block); }
-  template <class Block>
-  void gradient(Eigen::Index row, int j, const Block& block) {
-    add(B, row, place(j), block);
-  }
-  template <class Block>
-  void rate_gradient(Eigen::Index row, int j, const Block& block) {
-    add(Z, row, place(j), block);
-  }
-
- private:
-  Eigen::Index place(int body) const { return system.model().bodies[std::size_t(body)].v; }
-  template <class Block>
-  static void add(Matrix& M, Eigen::Index row, Eigen::Index column, const Block& block) {
-    M.block(row, column, block.rows(), block.cols()) += block;
-  }
-};
-
-// Central differences of order four of a vector function along each direction of R^m.
-template <class Function>
-Matrix differences(Eigen::Index m, Eigen::Index rows, const Function& f) {
-  constexpr double s = 1e-3;
-  Matrix D(rows, m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const auto at = [&](double x) { return Vector(f(Vector(x * Vector::Unit(m, i)))); };
-    D.col(i) = (8.0 * (at(s) - at(-s)) - (at(2.0 * s) - at(-2.0 * s))) / (12.0 * s);
-  }
-  return D;
+// Every law but those of initial values, for axes and points here are in general position.
+void expect_laws(const SceneDescription& scene, const std::string& text) {
+  const SystemCheck check = check_system(SceneWithPower<double>(make_scene_model<double>(scene)),
+                                         SceneWithPower<Extended>(make_scene_model<Extended>(scene)));
+  EXPECT_NE(check.find(Law::stiffness), nullptr) << text;
+  EXPECT_EQ(check.find(Law::gradient_derivative) != nullptr, !scene.joints.empty()) << text;
+  for (const LawCheck& law : check.laws)
+    if (!info(law.law).initial) EXPECT_TRUE(law.holds) << text << ": " << message(law);
 }
 
-// The fourth power of the step, and round-off over it, for entries of size `scale`.
-double difference_tolerance(double scale) {
-  return 1e-9 * (1.0 + scale);
-}
-
-void expect_pieces_are_derivatives(const SceneDescription& scene, const std::string& text) {
-  const System system(make_scene_model<double>(scene));
-  const auto group = system.group();
-  const Vector q = system.initial_configuration(), v = system.initial_velocity();
-  RandomNumbers random(5);
-  Vector lambda(system.multipliers());
-  for (Eigen::Index i = 0; i < lambda.size(); ++i) lambda(i) = random.vector<1>()(0);
-  const double t = 0.3;
-  DensePieces pieces(system);
-  system.linearize(t, q, v, lambda, pieces);
-  const Eigen::Index m = v.size(), l = lambda.size();
-  const auto moved = [&](const Vector& w) { return Vector(group.compose(q, group.exp(w))); };
-  const Matrix K = differences(m, m, [&](const Vector& w) {
-    return Vector(system.force(t, moved(w), v) + system.constraint_force(moved(w), lambda));
-  });
-  const Matrix C = differences(m, m, [&](const Vector& w) { return system.force(t, q, v + w); });
-  EXPECT_LE((pieces.K - K).norm(), difference_tolerance(K.norm())) << text;
-  EXPECT_LE((pieces.C - C).norm(), difference_tolerance(C.norm())) << text;
-  if (l == 0) return;
-  const Matrix B = differences(m, l, [&](const Vector& w) { return system.constraint(t, moved(w)); });
-  const Matrix Z = differences(m, l, [&](const Vector& w) { return system.constraint_product(moved(w), v); });
-  EXPECT_LE((pieces.B - B).norm(), difference_tolerance(B.norm())) << text;
-  EXPECT_LE((pieces.Z - Z).norm(), difference_tolerance(Z.norm())) << text;
-  EXPECT_LE((B * v - system.constraint_product(q, v)).norm(), difference_tolerance(v.norm())) << text;
-  EXPECT_LE((B.transpose() * lambda - system.constraint_force(q, lambda)).norm(),
-            difference_tolerance(lambda.norm()))
-      << text;
-}
-
-// d Phi / dt = B v + Phi_t and d^2 Phi / dt^2 = B v' + curvature along q(t) = q o exp(t v + t^2 a / 2), whose velocity at 0 is v
-// and whose acceleration is a.
-void expect_rates(const SceneDescription& scene, const std::string& text) {
-  const System system(make_scene_model<double>(scene));
-  const auto group = system.group();
-  const Vector q = system.initial_configuration(), v = system.initial_velocity();
-  RandomNumbers random(7);
-  Vector a(v.size());
-  for (Eigen::Index i = 0; i < a.size(); ++i) a(i) = random.vector<1>()(0);
-  const double t_0 = 0.3, s = 2e-3;
-  const auto phi = [&](double t) {
-    return Vector(system.constraint(t_0 + t, group.compose(q, group.exp(t * v + 0.5 * t * t * a))));
-  };
-  const Vector first = (8.0 * (phi(s) - phi(-s)) - (phi(2 * s) - phi(-2 * s))) / (12.0 * s);
-  const Vector second =
-      (16.0 * (phi(s) + phi(-s)) - (phi(2 * s) + phi(-2 * s)) - 30.0 * phi(0.0)) / (12.0 * s * s);
-  const Vector rate = system.constraint_rate(t_0, q, v);
-  EXPECT_LE((first - rate).norm(), 1e-8 * (1.0 + rate.norm())) << text;
-  const Vector expected = system.constraint_product(q, a) + system.constraint_curvature(t_0, q, v);
-  EXPECT_LE((second - expected).norm(), 1e-7 * (1.0 + expected.norm())) << text;
-}
-
-TEST(SceneSystem, MatricesAreDerivativesForEveryKindOfBody) {
+TEST(SceneSystem, KeepsItsLawsForEveryKindOfBody) {
   for (const BodyKind first : kinds)
     for (const BodyKind second : {BodyKind::r3xso3, BodyKind::se3, BodyKind::so3}) {
       SceneDescription scene = two_bodies(first, second);
@@ -138,29 +45,27 @@ TEST(SceneSystem, MatricesAreDerivativesForEveryKindOfBody) {
       std::get<std::vector<Placed<SpringDamper<double>>>>(scene.effects)
           .push_back({SpringDamper<double>{{0.1, 0.0, 0.2}, {0.0, 0.3, 0.1}, 7.0, 0.4, 0.5}, 0, 1});
       scene.joints.push_back(general_joint(JointKind::spherical, 0, 1));
-      expect_pieces_are_derivatives(scene, std::to_string(int(first)) + " " + std::to_string(int(second)));
+      expect_laws(scene, std::to_string(int(first)) + " " + std::to_string(int(second)));
     }
 }
 
-TEST(SceneSystem, MatricesAreDerivativesForEveryJoint) {
+TEST(SceneSystem, KeepsItsLawsForEveryJoint) {
   for (const JointKind kind : joints)
     for (const int a : {-1, 0})
       for (const BodyKind body : {BodyKind::r3xso3, BodyKind::se3, BodyKind::so3}) {
         SceneDescription scene = two_bodies(body, body);
         scene.joints.push_back(general_joint(kind, a, 1));
-        expect_pieces_are_derivatives(scene, std::to_string(int(kind)));
-        expect_rates(scene, std::to_string(int(kind)));
+        expect_laws(scene, std::to_string(int(kind)));
       }
 }
 
-TEST(SceneSystem, PrescribedMotionsHaveTheirRates) {
+TEST(SceneSystem, KeepsItsLawsWherePrescribedMotionsDrive) {
   for (const JointKind kind : {JointKind::revolute, JointKind::prismatic}) {
     SceneDescription scene = two_bodies(BodyKind::r3xso3, BodyKind::s3_r3);
     JointDescription joint = general_joint(kind, 0, 1);
     joint.motion = PrescribedMotion<double>{{0.2, 0.7, -0.3}, {{0.4, 2.0, 0.1}}};
     scene.joints.push_back(joint);
-    expect_pieces_are_derivatives(scene, std::to_string(int(kind)));
-    expect_rates(scene, std::to_string(int(kind)));
+    expect_laws(scene, std::to_string(int(kind)));
   }
 }
 
