@@ -8,6 +8,7 @@
 #include "harness/errors.h"
 #include "harness/heavy_top_runs.h"
 #include "harness/outside/outside_methods.h"
+#include "harness/problem_checks.h"
 #include "harness/problems.h"
 #include "problems/heavy_top.h"
 
@@ -112,6 +113,7 @@ struct Formulation {
   RunResult (*extended)(const RunRequest&, const HeavyTopReference&);
   RunResult (*audit)(const RunRequest&, const HeavyTopReference&);
   std::unique_ptr<TimedRun> (*timed)(const RunRequest&, const HeavyTopReference&);
+  SystemCheck (*check)(const HeavyTopParameters&);
 };
 
 template <template <class> class System>
@@ -120,7 +122,8 @@ Formulation formulation(std::string_view summary) {
           run_heavy_top<System, double>,
           run_heavy_top<System, Extended>,
           audit_heavy_top<System>,
-          timed_heavy_top<System>};
+          timed_heavy_top<System>,
+          check_heavy_top<System>};
 }
 
 // Every formulation: the explicit list.
@@ -135,6 +138,12 @@ const std::vector<Formulation>& formulations() {
       formulation<HeavyTopS3R3>("rigid motions with unit quaternion, body-fixed velocity, 3 constraints"),
       formulation<HeavyTopUDQ>("unit dual quaternions, body-fixed velocity, 3 constraints")};
   return list;
+}
+
+const Formulation& by_name(std::string_view name) {
+  for (const Formulation& entry : formulations())
+    if (entry.info.name == name) return entry;
+  throw std::logic_error(fmt::format("heavy_top has no formulation \"{}\"", name));
 }
 
 std::vector<FormulationInfo> formulation_infos() {
@@ -167,12 +176,6 @@ class HeavyTop final : public PreparedProblem {
   double reference_error() const override { return reference_.error_estimate(); }
 
  private:
-  static const Formulation& by_name(std::string_view name) {
-    for (const Formulation& entry : formulations())
-      if (entry.info.name == name) return entry;
-    throw std::logic_error(fmt::format("heavy_top has no formulation \"{}\"", name));
-  }
-
   HeavyTopReference reference_;
 };
 
@@ -206,7 +209,11 @@ ProblemInfo heavy_top_info() {
                         const MessageCallback& message) -> std::shared_ptr<const PreparedProblem> {
             return std::make_shared<HeavyTop>(
                 HeavyTopReference::load_or_build(from_json({parameters, ""}), duration, cache, message));
-          }};
+          },
+          .check =
+              [](std::string_view formulation, const Json& parameters) {
+                return by_name(formulation).check(from_json({parameters, ""}));
+              }};
 }
 
 }  // namespace liebench

@@ -9,6 +9,7 @@
 #include "harness/references/reference_cache.h"
 #include "harness/run.h"
 #include "harness/strict_json.h"
+#include "problems/system_check.h"
 
 // The problems of the program, seen from the harness.
 
@@ -58,6 +59,9 @@ struct ProblemInfo {
   std::function<std::shared_ptr<const PreparedProblem>(const Json& parameters, double duration,
                                                        const ReferenceCache&, const MessageCallback&)>
       prepare;
+  // Whether the functions of the problem agree with each other in a formulation (problems/check_system.h). Throws InputError where it
+  // is too large for that.
+  std::function<SystemCheck(std::string_view formulation, const Json& parameters)> check;
 };
 
 // Every problem: the explicit list.

@@ -10,12 +10,15 @@
 #include <utility>
 #include <variant>
 
+#include "harness/errors.h"
 #include "harness/instances/run_time_scenes.h"
+#include "harness/problem_checks.h"
 #include "harness/references/scene_reference.h"
 #include "harness/run_method.h"
 #include "harness/scene_assembly.h"
 #include "harness/scene_reader.h"
 #include "harness/scene_visit.h"
+#include "harness/simulate.h"
 
 namespace liebench {
 
@@ -189,6 +192,33 @@ class PreparedScene final : public PreparedProblem {
   SceneReference reference_;
 };
 
+// The names of velocities, in their order.
+std::vector<std::string> velocity_names(const SceneDescription& scene) {
+  std::vector<std::string> names;
+  for (const BodyDescription& body : scene.bodies) {
+    const auto add = [&](const char* part) {
+      for (const char* axis : {"x", "y", "z"}) names.push_back(fmt::format("{}.{}{}", body.name, part, axis));
+    };
+    if (!has_fixed_point(body.kind)) add(has_body_velocity(body.kind) ? "U" : "v");
+    if (body.kind != BodyKind::r3) add("omega_");
+  }
+  return names;
+}
+
+// Matrices are dense there, and each of their columns takes some ten evaluations of all bodies: 600 velocities, 100 bodies, take a
+// minute.
+constexpr std::size_t most_checked = 600;
+
+SystemCheck check_assembled(const AssembledScene& scene, const std::string& file) {
+  CheckOptions options{
+      .names = {.velocities = velocity_names(scene.scene), .multipliers = multiplier_names(scene)},
+      .gap = AssembledScene::fits};
+  if (const std::size_t size = options.names.velocities.size(); size > most_checked)
+    throw InputError(
+        file, fmt::format("{} velocities; a scene that is checked has at most {}", size, most_checked));
+  return check_scene(scene.scene, scene.implied, options);
+}
+
 // Version of the numerical code of scenes, as numerical_version is that of all: part of the hash of the content.
 constexpr int scene_version = 3;
 
@@ -211,16 +241,18 @@ std::unique_ptr<SceneEntry> make_entry(const std::string& file) {
   parameters["content"] = fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
   const auto rows = int(make_scene_model<double>(entry->scene.scene, entry->scene.implied)->rows);
   const AssembledScene* scene = &entry->scene;
-  entry->info = {.name = entry->name,
-                 .summary = entry->summary,
-                 .formulations = {{.name = "scene", .constraints = rows, .summary = "as its file has it"}},
-                 .parameters = {},
-                 .complete = [parameters](const JsonView&) { return parameters; },
-                 .obstacle = [](const Json&, double) { return std::string(); },
-                 .prepare = [scene](const Json&, double duration, const ReferenceCache&,
-                                    const MessageCallback&) -> std::shared_ptr<const PreparedProblem> {
-                   return std::make_shared<PreparedScene>(*scene, duration);
-                 }};
+  entry->info = {
+      .name = entry->name,
+      .summary = entry->summary,
+      .formulations = {{.name = "scene", .constraints = rows, .summary = "as its file has it"}},
+      .parameters = {},
+      .complete = [parameters](const JsonView&) { return parameters; },
+      .obstacle = [](const Json&, double) { return std::string(); },
+      .prepare = [scene](const Json&, double duration, const ReferenceCache&,
+                         const MessageCallback&) -> std::shared_ptr<const PreparedProblem> {
+        return std::make_shared<PreparedScene>(*scene, duration);
+      },
+      .check = [scene, file](std::string_view, const Json&) { return check_assembled(*scene, file); }};
   return entry;
 }
 

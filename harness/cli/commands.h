@@ -21,6 +21,7 @@ inline CLI::Validator positive_number() {
 // InputError or MachineError, or returns its exit status through `status`.
 void add_figures(CLI::App& app, int& status);
 void add_run(CLI::App& app, int& status);
+void add_check_problem(CLI::App& app, int& status);
 void add_table(CLI::App& app, int& status);
 void add_plot(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);

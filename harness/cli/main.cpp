@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
       "  liebench table study.jsonl --kind orders           observed orders of convergence\n"
       "  liebench plot study.jsonl --out study.svg          convergence plot\n"
       "  liebench compare old.jsonl new.jsonl               what changed; status 1 if something did\n"
+      "  liebench check-problem scene.json                  whether a problem's functions agree; 1 if not\n"
       "  liebench describe bliedf2nd                        what a method or problem is and takes\n"
       "Exit status: 0 done (numerical failures are data); 1 a check found a difference; 2 bad input;\n"
       "3 the machine failed (disk full, gnuplot missing).");
@@ -60,6 +61,7 @@ int main(int argc, char** argv) {
   add_simulate(app, status);
   add_effects(app, status);
   add_stability(app, status);
+  add_check_problem(app, status);
   add_table(app, status);
   add_plot(app, status);
   add_compare(app, status);

@@ -78,10 +78,8 @@ void add_scene_plan(CLI::App& command, ScenePlanOptions& options) {
       ->check(positive_number());
 }
 
-ScenePlan plan_scene(const ScenePlanOptions& options) {
-  const SceneDescription described = read_scene_file(options.scene);
-  ScenePlan result{assemble(described, options.scene), {}};
-  const AssembledScene& scene = result.scene;
+AssembledScene assembled_scene(const std::string& file) {
+  AssembledScene scene = assemble(read_scene_file(file), file);
   if (scene.moved())
     fmt::print(
         stderr,
@@ -93,7 +91,13 @@ ScenePlan plan_scene(const ScenePlanOptions& options) {
   if (!redundant.empty())
     fmt::print(stderr, "left out, for other joints imply it: {} of the constraints of {}\n",
                std::count(scene.implied.begin(), scene.implied.end(), true), redundant);
-  const double t_end = options.t_end > 0.0 ? options.t_end : described.duration;
+  return scene;
+}
+
+ScenePlan plan_scene(const ScenePlanOptions& options) {
+  ScenePlan result{assembled_scene(options.scene), {}};
+  const AssembledScene& scene = result.scene;
+  const double t_end = options.t_end > 0.0 ? options.t_end : scene.scene.duration;
   const double steps = std::ceil(t_end / options.step_size * (1.0 - 1e-12));
   if (!(steps <= most_steps))
     throw InputError("--h", fmt::format("{} would take {:.3g} steps; at most {:.0e} are allowed",

@@ -24,10 +24,12 @@ struct ScenePlan {
   SimulationPlan plan;
 };
 
+// Reads and assembles the scene and says on standard error what was done to it. Throws InputError.
+AssembledScene assembled_scene(const std::string& file);
+
 void add_scene_plan(CLI::App& command, ScenePlanOptions& options);
 
-// Reads and assembles the scene and checks method and steps; says on standard error what was done to the scene. Throws
-// InputError.
+// The same, and checks method and steps.
 ScenePlan plan_scene(const ScenePlanOptions& options);
 
 }  // namespace liebench

@@ -47,6 +47,7 @@ TEST_F(OutputTest, OfHelpIsAsExpected) {
                                                                                        {"run"},
                                                                                        {"simulate"},
                                                                                        {"effects"},
+                                                                                       {"check-problem"},
                                                                                        {"table"},
                                                                                        {"plot"},
                                                                                        {"compare"},
@@ -62,8 +63,8 @@ TEST_F(OutputTest, OfHelpIsAsExpected) {
 
 TEST_F(OutputTest, OfHelpNamesEveryCommand) {
   const std::string text = output({"--help"});
-  for (const char* command :
-       {"figures", "run", "simulate", "effects", "table", "plot", "compare", "list", "describe", "--version"})
+  for (const char* command : {"figures", "run", "simulate", "effects", "check-problem", "table", "plot",
+                              "compare", "list", "describe", "--version"})
     EXPECT_TRUE(contains(text, command)) << command;
 }
 
@@ -88,6 +89,23 @@ TEST_F(OutputTest, OfDescribeIsAsExpected) {
                                     "$ liebench describe heavy_top\n" + output({"describe", "heavy_top"}) +
                                     "$ liebench describe spring_damper\n" +
                                     output({"describe", "spring_damper"}));
+}
+
+TEST_F(OutputTest, OfCheckProblemIsAsExpected) {
+  // Which entry of a law that holds is the worst is round-off's choice: laws and how many numbers they looked at.
+  std::string text;
+  for (const char* problem : {"heavy_top", "problems/scenes/chain_3.json"}) {
+    const std::string name = *problem == 'h' ? problem : std::string(LIEBENCH_SOURCE_DIR) + "/" + problem;
+    const Json check = parse_json(output({"check-problem", name, "--json"}), problem);
+    for (const Json& entry : check.at("formulations")) {
+      text += fmt::format("{}, {}\n", problem, entry.at("formulation").get<std::string>());
+      for (const Json& law : entry.at("laws"))
+        text += fmt::format("  {:<24} {:<6} {:>5}  {}\n", law.at("law").get<std::string>(),
+                            law.at("holds").get<bool>() ? "holds" : "fails", law.at("compared").get<int>(),
+                            law.at("formula").get<std::string>());
+    }
+  }
+  expect_golden("check_problem.txt", text);
 }
 
 TEST_F(OutputTest, TheStudyThatDescribeShowsCanBeRun) {
