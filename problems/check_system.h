@@ -196,13 +196,13 @@ requires std::same_as<typename S::Scalar, double> SystemCheck check_system(const
     Configuration<S> q = q_0;
     if (k > 0) {
       q = group.compose(q, group.exp(Velocity<S>(options.reach * random.vector(m))));
-      point.v += std::max(1.0, largest_entry(v_0)) * random.vector(m);
+      point.v += std::max(1.0, max_norm(v_0)) * random.vector(m);
     }
-    point.coordinates = std::max(1.0, largest_entry(group.stacked(q)));
+    point.coordinates = std::max(1.0, max_norm(group.stacked(q)));
     // Accelerations and multipliers of the size that the forces give them.
     StatedValues stated = detail::stated_values(system, q, point);
     const auto size_by = [&](const CheckMatrix& A) {
-      const double size = (1.0 + largest_entry(stated.force)) / largest_entry(A);
+      const double size = (1.0 + max_norm(stated.force)) / max_norm(A);
       return std::isfinite(size) ? size : 1.0;
     };
     point.a = size_by(stated.M()) * random.vector(m);
@@ -210,7 +210,7 @@ requires std::same_as<typename S::Scalar, double> SystemCheck check_system(const
     stated = detail::stated_values(system, q, point);
 
     CheckPoint moved = point;
-    moved.v += roundings * double_eps * largest_entry(point.v) * random.signs(m);
+    moved.v += roundings * double_eps * max_norm(point.v) * random.signs(m);
     const Velocity<S> step = roundings * double_eps * point.coordinates * random.signs(m);
     const StatedValues rounded = detail::stated_values(system, group.compose(q, group.exp(step)), moved);
 

@@ -24,7 +24,7 @@ inline constexpr double roundings = 64.0;
 
 // The largest entry; 0 where there is none, NaN where one is.
 template <class Derived>
-double largest_entry(const Eigen::MatrixBase<Derived>& A) {
+double max_norm(const Eigen::MatrixBase<Derived>& A) {
   double largest = 0.0;
   for (Eigen::Index j = 0; j < A.cols(); ++j)
     for (Eigen::Index i = 0; i < A.rows(); ++i) {
@@ -62,7 +62,7 @@ SidedDerivative sided_derivative(const F& f, double unit, double argument = 0.0)
   const double eps = to_double(Eigen::NumTraits<T>::epsilon());
   const double d = unit * (ScalarTraits<T>::extended ? 16.0 * std::sqrt(eps) : std::cbrt(eps));
   const WitnessVector<T> center = f(T(0.0));
-  double size = largest_entry(center);
+  double size = max_norm(center);
   const auto side = [&](double h, CheckVector& error) {
     const WitnessVector<T> far = f(T(h)), middle = f(T(0.5 * h)), near = f(T(0.25 * h));
     const WitnessVector<T> coarse = (middle * T(4.0) - far - center * T(3.0)) / T(h);
@@ -72,7 +72,7 @@ SidedDerivative sided_derivative(const F& f, double unit, double argument = 0.0)
       value(i) = to_double(fine(i));
       error(i) = std::max(error(i), std::abs(to_double(T(coarse(i) - fine(i)))));
     }
-    size = std::max(size, largest_entry(far));
+    size = std::max(size, max_norm(far));
     return value;
   };
   SidedDerivative result;
@@ -80,8 +80,7 @@ SidedDerivative sided_derivative(const F& f, double unit, double argument = 0.0)
   result.left = side(-d, result.error);
   result.right = side(d, result.error);
   result.error.array() +=
-      roundings * eps / d *
-      (size + argument * std::max(largest_entry(result.left), largest_entry(result.right)));
+      roundings * eps / d * (size + argument * std::max(max_norm(result.left), max_norm(result.right)));
   return result;
 }
 

@@ -182,10 +182,9 @@ class LawsAtPoint {
         checks_.compare(law, point_, checks_.multiplier(i), LawChecks::none, value(i), 0.0, noise, 0.0);
     };
     row(Law::position_constraint, stated_.constraint,
-        gap +
-            noise(stated_.constraint, rounded_.constraint, point_.coordinates * largest_entry(stated_.B())));
+        gap + noise(stated_.constraint, rounded_.constraint, point_.coordinates * max_norm(stated_.B())));
     row(Law::velocity_constraint, stated_.rate,
-        noise(stated_.rate, rounded_.rate, largest_entry(absolute(stated_.B()) * absolute(point_.v))));
+        noise(stated_.rate, rounded_.rate, max_norm(absolute(stated_.B()) * absolute(point_.v))));
     check_independence();
     if (checks_.holds(Law::independent_constraints) && checks_.holds(Law::mass_definiteness))
       check_acceleration();
@@ -209,9 +208,9 @@ class LawsAtPoint {
   // 64 roundings of the largest term, and what those of q and v change.
   template <class A, class B>
   static double noise(const A& value, const B& rounded, double largest = 0.0) {
-    return roundings * double_eps * std::max(largest, largest_entry(value)) + largest_entry(value - rounded);
+    return roundings * double_eps * std::max(largest, max_norm(value)) + max_norm(value - rounded);
   }
-  double speed() const { return std::max(1.0, largest_entry(point_.v)); }
+  double speed() const { return std::max(1.0, max_norm(point_.v)); }
 
   // Column j of a stated matrix against a derivative along e_j.
   template <class F>
@@ -258,15 +257,14 @@ class LawsAtPoint {
     compare(stated_.force, rounded_.force, witness_.force(t_, zero_, v_), 0.0, of_velocity("force "));
     for (Eigen::Index j = 0; j < velocities(); ++j)
       compare(stated_.momentum.col(j), rounded_.momentum.col(j), witness_.momentum(zero_, along(j, T(1.0))),
-              largest_entry(stated_.momentum), of_velocity("momentum "));
+              max_norm(stated_.momentum), of_velocity("momentum "));
     const auto energy = [](double x) { return CheckVector(CheckVector::Constant(1, x)); };
-    compare(
-        energy(stated_.energy), energy(rounded_.energy), Vector::Constant(1, witness_.energy(zero_, v_)),
-        0.5 * largest_entry(absolute(point_.v.transpose()) * (absolute(stated_.M()) * absolute(point_.v))),
-        [](Eigen::Index) { return std::string("energy"); });
+    compare(energy(stated_.energy), energy(rounded_.energy), Vector::Constant(1, witness_.energy(zero_, v_)),
+            0.5 * max_norm(absolute(point_.v.transpose()) * (absolute(stated_.M()) * absolute(point_.v))),
+            [](Eigen::Index) { return std::string("energy"); });
     if (multipliers() > 0)
       compare(stated_.constraint, rounded_.constraint, witness_.constraint(t_, zero_),
-              point_.coordinates * largest_entry(stated_.B()),
+              point_.coordinates * max_norm(stated_.B()),
               [this](Eigen::Index i) { return "constraint " + checks_.multiplier(i)(); });
   }
 
@@ -294,17 +292,16 @@ class LawsAtPoint {
   }
 
   double largest_force() const {
-    double largest = std::max(largest_entry(stated_.force), largest_entry(stated_.M() * point_.a));
+    double largest = std::max(max_norm(stated_.force), max_norm(stated_.M() * point_.a));
     if (multipliers() > 0)
-      largest = std::max(largest, largest_entry(absolute(stated_.B()).transpose() * absolute(point_.lambda)));
+      largest = std::max(largest, max_norm(absolute(stated_.B()).transpose() * absolute(point_.lambda)));
     return largest;
   }
   void check_forces() const {
     if (stated_.damping)
       compare_columns(Law::damping, *stated_.damping,
-                      noise(*stated_.damping, *rounded_.damping, largest_entry(stated_.force)), false,
-                      speed(), speed(),
-                      [&](const Vector& dv) { return witness_.force(t_, zero_, Vector(v_ + dv)); });
+                      noise(*stated_.damping, *rounded_.damping, max_norm(stated_.force)), false, speed(),
+                      speed(), [&](const Vector& dv) { return witness_.force(t_, zero_, Vector(v_ + dv)); });
     if (stated_.stiffness)
       compare_columns(Law::stiffness, *stated_.stiffness,
                       noise(*stated_.stiffness, *rounded_.stiffness, largest_force()), false,
@@ -323,9 +320,9 @@ class LawsAtPoint {
             return Vector(Vector::Constant(1, witness_.energy(zero_, Vector(v_ + along(i, s)))));
           },
           speed(), speed());
-      checks_.compare(
-          Law::kinetic_energy, point_, checks_.velocity(i), LawChecks::none, D.nearest(0, Mv(i)), Mv(i),
-          roundings * double_eps * largest_entry(absolute(stated_.M()) * absolute(point_.v)), D.error(0));
+      checks_.compare(Law::kinetic_energy, point_, checks_.velocity(i), LawChecks::none, D.nearest(0, Mv(i)),
+                      Mv(i), roundings * double_eps * max_norm(absolute(stated_.M()) * absolute(point_.v)),
+                      D.error(0));
     }
     check_balance(v_, a_, [] { return std::string("along v and a of the point"); });
     for (Eigen::Index j = 0; j < velocities(); ++j)
@@ -334,7 +331,7 @@ class LawsAtPoint {
   // Any motion will do: where M a + g is not zero something else pushes, and its power v . (M a + g) is the first part of dE/dt.
   template <class Name>
   void check_balance(const Vector& v, const Vector& a, const Name& name) const {
-    const double fastest = std::max(1.0, largest_entry(v));
+    const double fastest = std::max(1.0, max_norm(v));
     const Vector g = witness_.force(t_, zero_, v), Ma = witness_.momentum(zero_, a);
     const double expected = to_double(T(v.dot(Ma + g) + witness_.power(t_, v)));
     double terms = 0.0;
@@ -358,15 +355,14 @@ class LawsAtPoint {
       compare_matrices(Law::constraint_product, stated_.constraint_product, B, round_off, true);
     compare_matrices(Law::constraint_force, stated_.constraint_force, B, round_off, true);
 
-    const double time = 1.0 / speed(), rates = largest_entry(absolute(B) * absolute(point_.v));
+    const double time = 1.0 / speed(), rates = max_norm(absolute(B) * absolute(point_.v));
     const auto moving = [&](const T& s) { return witness_.constraint(T(t_ + s), Vector(v_ * s)); };
     const SidedDerivative rate = sided_derivative<T>(moving, unit * time, unit * time);
     for (Eigen::Index i = 0; i < multipliers(); ++i)
       checks_.compare(Law::constraint_rate, point_, checks_.multiplier(i), LawChecks::none, stated_.rate(i),
                       rate.nearest(i, stated_.rate(i)), noise(stated_.rate, rounded_.rate, rates),
                       rate.error(i));
-    const SecondDerivative second =
-        second_derivative<T>(moving, time, unit * std::max(1.0, largest_entry(B)));
+    const SecondDerivative second = second_derivative<T>(moving, time, unit * std::max(1.0, max_norm(B)));
     for (Eigen::Index i = 0; i < multipliers(); ++i)
       checks_.compare(Law::constraint_curvature, point_, checks_.multiplier(i), LawChecks::none,
                       stated_.curvature(i), second.value(i),
@@ -405,12 +401,12 @@ class LawsAtPoint {
     for (int pass = 0; pass < 3; ++pass) x += lu.solve(CheckVector(right - A * x));
     const CheckVector acceleration = x.head(m);
     const Vector half = in_witness(acceleration) * T(0.5);
-    const double terms = std::max(largest_entry(stated_.curvature),
-                                  largest_entry(absolute(stated_.B()) * absolute(acceleration)));
-    const double time = 1.0 / std::max(speed(), std::sqrt(largest_entry(acceleration)));
+    const double terms =
+        std::max(max_norm(stated_.curvature), max_norm(absolute(stated_.B()) * absolute(acceleration)));
+    const double time = 1.0 / std::max(speed(), std::sqrt(max_norm(acceleration)));
     const SecondDerivative second = second_derivative<T>(
         [&](const T& s) { return witness_.constraint(T(t_ + s), Vector(v_ * s + half * T(s * s))); }, time,
-        point_.coordinates * std::max(1.0, largest_entry(stated_.B())));
+        point_.coordinates * std::max(1.0, max_norm(stated_.B())));
     for (Eigen::Index i = 0; i < l; ++i)
       checks_.compare(
           Law::consistent_acceleration, point_, checks_.multiplier(i), LawChecks::none, second.value(i), 0.0,

@@ -33,7 +33,9 @@ void expect_laws(const SceneDescription& scene, const std::string& text) {
   EXPECT_NE(check.find(Law::stiffness), nullptr) << text;
   EXPECT_EQ(check.find(Law::gradient_derivative) != nullptr, !scene.joints.empty()) << text;
   for (const LawCheck& law : check.laws)
-    if (!info(law.law).initial) EXPECT_TRUE(law.holds) << text << ": " << message(law);
+    if (!info(law.law).initial) {
+      EXPECT_TRUE(law.holds) << text << ": " << message(law);
+    }
 }
 
 TEST(SceneSystem, KeepsItsLawsForEveryKindOfBody) {
