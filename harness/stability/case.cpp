@@ -75,7 +75,7 @@ void add_trials(std::vector<Trial>& trials, const std::vector<std::string>& form
         if (auto trial = make(contestant, form)) {
           // Of what takes long once is enough.
           if (!safeguard && !trial->quick) continue;
-          trial->contestant = &contestant;
+          if (trial->contestant == nullptr) trial->contestant = &contestant;
           trial->subject = contestant.name;
           trial->form = form;
           trials.push_back(std::move(*trial));

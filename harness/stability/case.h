@@ -75,6 +75,7 @@ struct StabilityCase {
 
 // The trial of one method in one form, or nothing where it does not apply.
 using TrialMaker = std::function<std::optional<Trial>(const Contestant&, const std::string& form)>;
+// The maker may name another contestant, of other options: the row is that of the one it got.
 // Adds one trial for each contestant, with the safeguard and, where it is quick, without, and each of the forms.
 void add_trials(std::vector<Trial>& trials, const std::vector<std::string>& forms, const TrialMaker& make);
 inline const std::vector<std::string> constrained_forms{"index3", "stabilized_index2"};

@@ -1,9 +1,12 @@
 #include "harness/stability/contestant.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
 #include "integrators/form.h"
+#include "integrators/step_control.h"
 
 namespace liebench {
 
@@ -28,6 +31,11 @@ std::string_view Contestant::correction() const {
 std::optional<double> Contestant::rho_inf() const {
   if (!options.has("rho_inf")) return std::nullopt;
   return options.real("rho_inf");
+}
+
+std::optional<double> Contestant::tolerance() const {
+  if (!options.has(tolerance_option.name)) return std::nullopt;
+  return options.real(tolerance_option.name);
 }
 
 std::string_view Contestant::own_form() const {
@@ -60,6 +68,7 @@ Contestant contestant(std::string_view integrator,
     if (info.scope == OptionScope::everywhere) result.options.set(info.name, option_default(info));
   for (const auto& [key, value] : options) result.options.set(key, value);
   result.name = method->title(result.options);
+  if (const auto tolerance = result.tolerance()) result.name += fmt::format(", tolerance {:.0e}", *tolerance);
   return result;
 }
 
@@ -70,6 +79,8 @@ const std::vector<Contestant>& contestants(bool safeguard) {
     all.push_back(contestant("bliedf2nd", {{"k", 3}, {"correction", false}}));
     for (const int k : {4, 5, 6})
       all.push_back(contestant("bliedf2nd", {{"k", k}, {"correction", std::string("implicit")}}));
+    for (const double tolerance : {1e-4, 1e-8})
+      all.push_back(contestant("bliedf2nd_variable", {{"tolerance", tolerance}}));
     for (const double rho : {1.0, 0.9, 0.5, 0.0})
       all.push_back(contestant("generalized_alpha", {{"rho_inf", rho}}));
     for (const int k : {2, 3, 4})
@@ -85,6 +96,8 @@ const std::vector<Contestant>& contestants(bool safeguard) {
     for (const int k : {2, 4, 6}) all.push_back(contestant("faltinsen_adams", {{"k", k}}));
     for (const char* tableau : {"rk4", "dopri5", "butcher6"})
       all.push_back(contestant("rkmk", {{"tableau", std::string(tableau)}}));
+    for (const double tolerance : {1e-4, 1e-8})
+      all.push_back(contestant("rkmk_variable", {{"tolerance", tolerance}}));
     all.push_back(contestant("commutator_free", {}));
     all.push_back(contestant("crouch_grossman", {}));
     for (Contestant& each : all) each.safeguard = safeguarded;

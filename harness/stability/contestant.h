@@ -15,7 +15,7 @@ namespace liebench {
 struct Contestant {
   const MethodInfo* method = nullptr;
   OptionValues options;    // complete but for the form, and what depends on it
-  std::string name;        // as in all tables, method_name()
+  std::string name;        // as in all tables, method_name(); with the tolerance, which is no part of that
   bool safeguard = false;  // the option of the kernel
 
   // A generalized-alpha method has one step.
@@ -34,6 +34,9 @@ struct Contestant {
   std::string_view own_form() const;
   // rho_inf of generalized-alpha.
   std::optional<double> rho_inf() const;
+  // Of one that chooses its steps; empty of another.
+  std::optional<double> tolerance() const;
+  bool chooses_steps() const { return method->chooses_steps; }
   // All options for a form; "" for a system without constraints. `modified_start`: where it means something.
   OptionValues options_for(std::string_view form, bool modified_start = true) const;
 };

@@ -119,6 +119,7 @@ std::optional<Complex> stability_function(const Contestant& method, Complex z) {
   if (method.is("gauss")) return diagonal_pade(method.options.integer("stages"), z);
   if (method.is("radau")) return (1.0 + z * (0.4 + z * 0.05)) / (1.0 - z * (0.6 - z * (0.15 - z / 60.0)));
   if (method.is("half_explicit")) return half_explicit_function(method.options.choice("tableau"), z);
+  if (method.is("rkmk_variable")) return stability_function_of(dormand_prince_five, z);
   if (!method.is("rkmk")) return std::nullopt;
   const std::string& tableau = method.options.choice("tableau");
   if (tableau == "dopri5") return stability_function_of(dormand_prince_five, z);
@@ -127,8 +128,8 @@ std::optional<Complex> stability_function(const Contestant& method, Complex z) {
 }
 
 bool explicit_in_forces(const Contestant& method) {
-  for (const char* name : {"rkmk", "commutator_free", "crouch_grossman", "faltinsen_adams", "half_explicit",
-                           "rattlie", "shakelie", "liemid"})
+  for (const char* name : {"rkmk", "rkmk_variable", "commutator_free", "crouch_grossman", "faltinsen_adams",
+                           "half_explicit", "rattlie", "shakelie", "liemid"})
     if (method.is(name)) return true;
   return false;
 }

@@ -12,7 +12,7 @@ namespace liebench {
 
 // The spectral radius of the method on x'' = 2 Re(mu) x' - |mu|^2 x, whose solutions are exp(mu t) and its conjugate, z = h mu: by
 // the characteristic polynomial of the method in the literature, not by its code. Errors of the linear motion grow where it is
-// above 1.
+// above 1. Not of a BDF method that chooses its steps and orders: it has no such polynomial.
 //
 //   k-step BDF         sum_{i=0}^k alpha_i zeta^{k-i} = z zeta^k                      [Hairer & Wanner, Solving ODE II, V.1]
 //   generalized-alpha  amplification matrix of (x, h x', h^2 a)                      [Chung & Hulbert 1993]

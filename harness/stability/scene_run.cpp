@@ -1,7 +1,9 @@
 #include "harness/stability/scene_run.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "harness/methods.h"
 #include "harness/run_method.h"
 #include "harness/scene_visit.h"
 #include "integrators/consistent_projection.h"
@@ -18,10 +20,11 @@ class Watcher {
   bool wants(std::uint64_t n) const {
     return run_.watch && (n == run_.steps || (run_.every != 0 && n % run_.every == 0));
   }
-  void look(std::uint64_t n, const Configuration<S>& q, const Velocity<S>& v, const Multipliers<S>& lambda) {
+  void look(std::uint64_t n, double t, const Configuration<S>& q, const Velocity<S>& v,
+            const Multipliers<S>& lambda, bool own_steps = false) {
     WatchedState state;
     state.step = n;
-    state.t = run_.step_size * double(n);
+    state.t = t;
     for (const Body<double>& body : system_.model().bodies) {
       RigidState<double> s;
       body.read_pose(q, s);
@@ -38,10 +41,27 @@ class Watcher {
       state.velocity_constraint = system_.constraint_rate(state.t, q, v).cwiseAbs().maxCoeff();
     }
     state.group = system_.group().defect(q);
+    if (own_steps) state.energy_of_tolerance = energy_of_tolerance(t, q, v);
     run_.watch(state);
   }
 
  private:
+  // dE = p . dv + (g at rest) . dtheta with p = dE/dv, by differences, which are exact of a kinetic energy.
+  double energy_of_tolerance(double t, const Configuration<S>& q, const Velocity<S>& v) const {
+    Velocity<S> rest = v;
+    rest.setZero();
+    const Velocity<S> slope = system_.force(t, q, rest);
+    double sum = slope.squaredNorm();
+    for (Eigen::Index i = 0; i < v.size(); ++i) {
+      Velocity<S> more = v, less = v;
+      more(i) += 1.0;
+      less(i) -= 1.0;
+      const double p = 0.5 * (system_.energy(q, more) - system_.energy(q, less));
+      sum += std::pow(p * (1.0 + std::abs(v(i))), 2);
+    }
+    return std::sqrt(2.0 * double(v.size()) * sum);
+  }
+
   const S& system_;
   const SceneRun& run_;
   NoAudit unused_;
@@ -78,20 +98,90 @@ void disturb_points(const SceneRun& run, std::span<SolutionPoint<S>> points) {
   }
 }
 
+// The starting points of the run's own making.
 template <class S>
-StepResult begin(const S& system, const SceneRun& run, AnyStepper<S>& stepper,
+StepResult make_points(const S& system, const SceneRun& run, double h, std::span<SolutionPoint<S>> points) {
+  NoAudit unused;
+  const StepResult found =
+      run.exact ? take_exact(system, run, points) : self_start(system, 0.0, h, points, unused);
+  if (found.outcome == Outcome::ok && run.disturb) disturb_points<S>(run, points);
+  return found;
+}
+
+// h: the step size, or the length of the interval.
+template <class S>
+StepResult begin(const S& system, const SceneRun& run, double h, AnyStepper<S>& stepper,
                  std::span<SolutionPoint<S>> points) {
-  if (!run.exact && !run.disturb) return stepper.start_itself(run.step_size, points);
-  if (run.exact) {
-    if (const StepResult found = take_exact(system, run, points); found.outcome != Outcome::ok) return found;
-  } else {
-    NoAudit unused;
-    if (const StepResult found = self_start(system, 0.0, run.step_size, points, unused);
+  if (!run.exact && !run.disturb) return stepper.start_itself(h, points);
+  if (const StepResult found = make_points(system, run, h, points); found.outcome != Outcome::ok)
+    return found;
+  return stepper.start(h, points);
+}
+
+RunFailure failure_of(const StepResult& result, std::uint64_t step, double time) {
+  return {.time = time,
+          .step = step,
+          .residual = result.residual,
+          .message = std::string(detail::explanation(result.outcome))};
+}
+
+template <class S>
+bool all_finite(const AnyStepper<S>& stepper) {
+  return stepper.configuration().allFinite() && stepper.velocity().allFinite() &&
+         stepper.multipliers().allFinite();
+}
+
+// A method that chooses its steps.
+template <class S>
+SceneRunEnd follow_own_steps(const S& system, const SceneRun& run, AnyStepper<S>& stepper) {
+  std::vector<SolutionPoint<S>> points(std::size_t(stepper.starting_points()));
+  Watcher<S> watcher(system, run);
+  SceneRunEnd end;
+  const auto fail = [&](const StepResult& result) {
+    end.outcome = result.outcome;
+    end.failure = failure_of(result, end.reached + 1, end.time);
+    return end;
+  };
+  const double length = run.step_size * double(run.steps), direction = std::copysign(1.0, length);
+  if (length == 0.0) {
+    // It is its starting point, and no method is asked for a step.
+    if (const StepResult found = make_points(system, run, length, std::span(points));
         found.outcome != Outcome::ok)
-      return found;
+      return fail(found);
+    const SolutionPoint<S>& p = points[0];
+    if (run.watch) watcher.look(0, 0.0, p.q, p.v, p.lambda, true);
+    end.finite = p.q.allFinite() && p.v.allFinite() && p.lambda.allFinite();
+    return end;
   }
-  if (run.disturb) disturb_points<S>(run, points);
-  return stepper.start(run.step_size, points);
+  if (const StepResult start = begin(system, run, length, stepper, std::span(points));
+      start.outcome != Outcome::ok)
+    return fail(start);
+  const double spacing = std::abs(run.step_size) * double(run.every);
+  double next_look = 0.0;
+  const auto look = [&] {
+    const double passed = std::abs(end.time);
+    const bool due = run.watch_own_steps || (run.every != 0 && passed >= next_look);
+    if (run.watch && (due || stepper.finished()))
+      watcher.look(end.reached, end.time, stepper.configuration(), stepper.velocity(), stepper.multipliers(),
+                   true);
+    if (due && run.every != 0) next_look = (std::floor(passed / spacing) + 1.0) * spacing;
+    end.finite = all_finite(stepper);
+  };
+  look();
+  while (!stepper.finished()) {
+    if (end.reached == run.most_own_steps) return fail({Outcome::step_limit});
+    if (const StepResult result = stepper.step(); result.outcome != Outcome::ok) {
+      end.finite = all_finite(stepper);
+      return fail(result);
+    }
+    ++end.reached;
+    const double h = (stepper.time() - end.time) * direction;
+    end.time = stepper.time();
+    end.longest_step = std::max(end.longest_step, h);
+    if (!stepper.finished() && (end.shortest_step == 0.0 || h < end.shortest_step)) end.shortest_step = h;
+    look();
+  }
+  return end;
 }
 
 template <class S>
@@ -100,24 +190,25 @@ SceneRunEnd follow(const S& system, const SceneRun& run) {
   request.integrator = run.integrator;
   request.options = run.options;
   const auto stepper = any_stepper(detail::options_of(request), system);
+  if (find_method(run.integrator)->chooses_steps) return follow_own_steps(system, run, *stepper);
   std::vector<SolutionPoint<S>> points(std::size_t(stepper->starting_points()));
   Watcher<S> watcher(system, run);
   SceneRunEnd end;
+  const auto time_of = [&](std::uint64_t n) { return double(n) * run.step_size; };
   const auto fail = [&](const StepResult& result, std::uint64_t n) {
     end.outcome = result.outcome;
-    end.failure = RunFailure{.time = double(n) * run.step_size,
-                             .step = n,
-                             .residual = result.residual,
-                             .message = std::string(detail::explanation(result.outcome))};
+    end.failure = failure_of(result, n, time_of(n));
+    end.time = time_of(end.reached);
     return end;
   };
   const auto first = std::uint64_t(stepper->steps());
-  if (const StepResult start = begin(system, run, *stepper, std::span(points)); start.outcome != Outcome::ok)
+  if (const StepResult start = begin(system, run, run.step_size, *stepper, std::span(points));
+      start.outcome != Outcome::ok)
     return fail(start, first - 1);
   for (std::uint64_t n = 0; n < first && n <= run.steps; ++n) {
     end.reached = n;
     const SolutionPoint<S>& p = points[std::size_t(n)];
-    if (watcher.wants(n)) watcher.look(n, p.q, p.v, p.lambda);
+    if (watcher.wants(n)) watcher.look(n, time_of(n), p.q, p.v, p.lambda);
     end.finite = p.q.allFinite() && p.v.allFinite() && p.lambda.allFinite();
   }
   while (end.reached < run.steps) {
@@ -132,10 +223,11 @@ SceneRunEnd follow(const S& system, const SceneRun& run) {
     }
     end.reached += chunk;
     if (watcher.wants(end.reached))
-      watcher.look(end.reached, stepper->configuration(), stepper->velocity(), stepper->multipliers());
-    end.finite = stepper->configuration().allFinite() && stepper->velocity().allFinite() &&
-                 stepper->multipliers().allFinite();
+      watcher.look(end.reached, time_of(end.reached), stepper->configuration(), stepper->velocity(),
+                   stepper->multipliers());
+    end.finite = all_finite(*stepper);
   }
+  end.time = time_of(end.reached);
   return end;
 }
 

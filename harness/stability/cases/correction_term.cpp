@@ -74,8 +74,57 @@ Finding examine(const Contestant& method, const std::string& form, double angle,
   return finding;
 }
 
+// BLieDF2nd with variable steps has the same term. At a constant rotation all its estimates vanish, and what ends the growth of its
+// steps is that they turn by 0.9 pi at most: below the bounds of k = 3 and 4, and for k = 2, whose term is h^2 / 12 [v, v'] with v' of one
+// difference, e_{n+1} = -+ i h |v| / 12 (e_n - e_{n-1}), below 6.
+Finding examine_own_steps(const Contestant& method, const std::string& form) {
+  SceneRun run;
+  constexpr double spin = 1.0;
+  run.scene = assembled(body_at(0.0, spin));
+  run.integrator = std::string(method.method->name);
+  run.options = method.options_for(form);
+  run.step_size = 1.0;
+  run.steps = steps;
+  run.exact = [](double t) { return body_at(t, spin); };
+  run.disturb = [](std::vector<StartingPoint>& points) {
+    points[0].v(3) += disturbance;
+    points[0].v(1) -= disturbance;
+  };
+  double transverse = 0.0;
+  run.watch = [&](const WatchedState& s) {
+    transverse = std::hypot(s.bodies[0].omega(0), s.bodies[0].omega(1));
+  };
+  const SceneRunEnd end = run_scene(run);
+  Finding finding = finding_of(end);
+  finding.what = "disturbance, times the first";
+  const double turn = spin * end.longest_step;
+  const double radius = std::max(correction_spectral_radius(3, false, held * turn),
+                                 correction_spectral_radius(4, false, held * turn));
+  finding.measured["largest_turn"] = turn;
+  finding.measured["spectral_radius"] = radius;
+  finding.measured["steps"] = double(end.reached);
+  finding.reason =
+      fmt::format("no step turns by more than 0.9 pi: the longest by {:.3g} rad, where the radius is {:.3g}",
+                  turn, radius);
+  if (finding.grade == Grade::failed) return finding;
+  finding.amount = transverse / disturbance;
+  finding.measured["disturbance_factor"] = *finding.amount;
+  // That the steps keep within the bound is part of the criterion.
+  if (!(*finding.amount <= 1e3) || !(radius <= 1.0)) finding.grade = Grade::failed;
+  return finding;
+}
+
 std::vector<Trial> trials() {
   std::vector<Trial> all;
+  add_trials(all, constrained_forms,
+             [](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+               if (!method.is("bliedf2nd_variable")) return std::nullopt;
+               Trial t;
+               t.variant = "1 rad/s, 600 s";
+               t.parameters = {{"spin", 1.0}, {"length", double(steps)}};
+               t.run = [=, &method] { return examine_own_steps(method, form); };
+               return t;
+             });
   for (const double part : {0.8, 1.25}) {
     const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
       if (method.correction().empty() || !method.is("bliedf2nd")) return std::nullopt;

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
@@ -13,12 +15,17 @@ namespace degenerate_runs_case {
 
 namespace {
 
-std::shared_ptr<const AssembledScene> pendulum(const std::string& factor) {
+std::shared_ptr<const AssembledScene> pendulum(const std::string& factor, bool constrained) {
   Json scene = parse_json(R"({"name": "pendulum",
     "bodies": [{"name": "rod", "mass": 1, "inertia": [0.01, 0.0833333, 0.0833333], "position": [0.5, 0, 0]}],
     "joints": [{"name": "hinge", "type": "revolute", "bodies": ["ground", "rod"], "point": [0, 0, 0], "axis": [0, 1, 0]}],
     "effects": [{"type": "uniform_gravity", "acceleration": [0, 0, -9.81]}]})",
                           "pendulum");
+  if (!constrained) {
+    scene.erase("joints");
+    scene["bodies"][0]["formulation"] = "SO3";
+    scene["bodies"][0]["fixed_point"] = {0, 0, 0};
+  }
   if (!factor.empty())
     scene["effects"].push_back({{"type", "applied_force"},
                                 {"body", "rod"},
@@ -35,22 +42,51 @@ struct Plan {
   bool possible;       // to take these steps at all
   std::uint64_t last;  // of those that are not, the last that is
   const char* reason;
+  // Of a method that chooses its steps: in place of its own tolerance.
+  std::optional<double> tolerance = {};
 };
+
+// Without a constraint the rod is a body with a fixed point: methods without multipliers have a degenerate run, too.
+
+// A method that chooses its steps goes as near to the end of a force as 1e-12 of the interval, below which it makes no step any
+// shorter; it comes there by steps of a fifth or a quarter. No more of them than a step limit, whatever is asked for.
+constexpr std::uint64_t most_own_steps = 20'000;
+constexpr double shortest_part = 1e-12;
+
+Finding examine_own_steps(const Plan& plan, const SceneRunEnd& end, double energy_error, Finding finding) {
+  const double length = plan.step_size * double(plan.steps), ends = plan.step_size * double(plan.last + 1);
+  finding.measured["steps"] = double(end.reached);
+  if (plan.possible) {
+    if (finding.grade != Grade::survived) return finding;
+    // To the last bit.
+    if (end.time != length) finding.grade = Grade::failed;
+    finding.amount = energy_error;
+    finding.measured["energy"] = energy_error;
+    // A tolerance of everything promises nothing but an end.
+    if (!plan.tolerance && !(energy_error <= 0.1)) finding.grade = Grade::degraded;
+    return finding;
+  }
+  const bool in_time = plan.last == 0 || std::abs(ends - end.time) <= 2.0 * shortest_part * std::abs(length);
+  finding.grade = end.outcome != Outcome::ok && in_time ? Grade::survived : Grade::failed;
+  return finding;
+}
 
 Finding examine(const Plan& plan, const Contestant& method, const std::string& form) {
   SceneRun run;
-  run.scene = pendulum(plan.factor);
+  run.scene = pendulum(plan.factor, !form.empty());
   run.integrator = std::string(method.method->name);
   run.options = method.options_for(form);
   run.step_size = plan.step_size;
   run.steps = plan.steps;
   run.every = std::max<std::uint64_t>(1, plan.steps);
+  run.most_own_steps = most_own_steps;
   double first = 0.0, last = 0.0;
   run.watch = [&](const WatchedState& s) { (s.step == 0 ? first : last) = s.energy; };
   const SceneRunEnd end = run_scene(run);
   Finding finding = finding_of(end);
   finding.reason = plan.reason;
   finding.what = "energy, of 4.9 J";
+  if (method.chooses_steps()) return examine_own_steps(plan, end, std::abs(last - first) / 4.905, finding);
   finding.measured["reached"] = double(end.reached);
   if (!plan.possible) {
     // To end with an outcome that says when is to survive.
@@ -69,7 +105,20 @@ Finding examine(const Plan& plan, const Contestant& method, const std::string& f
   return finding;
 }
 
+// Of tolerances that no study may ask for.
+const Contestant& absurd(std::string_view integrator, double tolerance) {
+  static const std::vector<Contestant> all = [] {
+    std::vector<Contestant> list;
+    for (const char* name : {"bliedf2nd_variable", "rkmk_variable"})
+      for (const double each : {1e-300, 1e300}) list.push_back(contestant(name, {{"tolerance", each}}));
+    return list;
+  }();
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const Contestant& c) { return c.is(integrator) && c.tolerance() == tolerance; });
+}
+
 std::vector<Trial> trials() {
+  static const std::vector<std::string> all_forms{"", "index3", "stabilized_index2"};
   static const std::vector<Plan> plans{
       {"no step", 1e-3, 0, "", true, 0, "an interval of no length is its initial values"},
       {"one step", 1e-3, 1, "", true, 0, "of a k-step method one of its starting points"},
@@ -80,18 +129,28 @@ std::vector<Trial> trials() {
        "a step that turns by pi and more, or overflows, has an outcome for it"},
       {"NaN half-way", 1e-3, 100, "t < 0.05 ? 1 : sqrt(-1)", false, 49, "no step can be taken there"},
       {"infinity half-way", 1e-3, 100, "t < 0.05 ? 1 : 1/0", false, 49, "no step can be taken there"},
+      {"tolerance 1e-300", 1e-3, 500, "", false, 0, "no error of a step is as small", 1e-300},
+      {"tolerance 1e300", 1e-3, 500, "", true, 0, "every step is accepted that can be taken", 1e300},
   };
   std::vector<Trial> all;
   for (const Plan& plan : plans) {
     const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+      if (!method.chooses_steps() && (form.empty() || plan.tolerance)) return std::nullopt;
       Trial t;
       t.variant = plan.variant;
       t.parameters = {{"run", plan.variant}, {"step_size", plan.step_size}, {"steps", plan.steps}};
       t.work = 0.5;
-      t.run = [&plan, &method, form] { return examine(plan, method, form); };
+      const Contestant* tried = &method;
+      if (plan.tolerance) {
+        // One row has it, that of the tolerance on the same side.
+        if ((*plan.tolerance < 1e-6) != (*method.tolerance() < 1e-6)) return std::nullopt;
+        tried = &absurd(method.method->name, *plan.tolerance);
+      }
+      t.contestant = tried;
+      t.run = [&plan, tried, form] { return examine(plan, *tried, form); };
       return t;
     };
-    add_trials(all, constrained_forms, make);
+    add_trials(all, all_forms, make);
   }
   return all;
 }
@@ -107,7 +166,9 @@ StabilityCase degenerate_runs() {
       .question = "Has every run an outcome, however odd its request?",
       .criterion =
           "survived: ended well with finite numbers and its energy within 10 %; where no step can be taken, "
-          "ended with an outcome that says so",
+          "ended with an outcome that says so; of chosen steps at the end of the interval to the last bit, "
+          "or of "
+          "the force to 1e-12",
       .theory = "a failure is a record; a NaN is none",
       .trials = degenerate_runs_case::trials};
 }

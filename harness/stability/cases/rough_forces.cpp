@@ -6,6 +6,7 @@
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
 #include "harness/stability/linear_theory.h"
+#include "harness/stability/tolerance.h"
 
 // Forces that change within a step: dry friction, impacts, a torque that jumps.
 
@@ -16,12 +17,16 @@ namespace rough_forces_case {
 namespace {
 
 constexpr double h = 1e-3;
+// Five times those of the others.
+constexpr std::uint64_t most_own_steps = 5'000;
 
 enum class Rough { friction, contact, jump };
 
 // Energies, J, of all states.
 struct Course {
   double first = 0.0, least = 0.0, most = 0.0, last = 0.0;
+  double of_tolerance = 0.0;
+  SceneRunEnd end;
   Eigen::Vector3d omega = Eigen::Vector3d::Zero();
 };
 
@@ -34,14 +39,30 @@ Finding follow(const SceneDescription& scene, const Contestant& method, const st
   run.step_size = step;
   run.steps = std::uint64_t(std::llround(t_end / step));
   run.every = 1;
+  run.watch_own_steps = true;
+  run.most_own_steps = most_own_steps;
   run.watch = [&](const WatchedState& s) {
+    course.of_tolerance = std::max(course.of_tolerance, s.energy_of_tolerance);
     if (s.step == 0) course.first = course.least = course.most = s.energy;
     course.least = std::min(course.least, s.energy);
     course.most = std::max(course.most, s.energy);
     course.last = s.energy;
     course.omega = s.bodies[0].omega;
   };
-  return finding_of(run_scene(run));
+  course.end = run_scene(run);
+  Finding finding = finding_of(course.end);
+  if (method.chooses_steps()) {
+    finding.measured["steps"] = double(course.end.reached);
+    finding.measured["shortest_step"] = course.end.shortest_step;
+  }
+  return finding;
+}
+
+// A jump of the force is in the past of k + 1 steps of a method of order k, and each may leave its tolerance's worth of
+// velocity; where in its step a jump falls, the estimate does not know, by a factor of 2.
+double permitted_by_jump(const Contestant& method, double rate) {
+  const auto steps = std::uint64_t(method.order()) + 1;
+  return 2.0 * permitted_error(method, steps, 6) * (1.0 + rate);
 }
 
 // A disc of 1 kg m^2 with 1 rad/s and a friction of 2 N m: at rest after half a second.
@@ -57,7 +78,15 @@ Finding friction(const Contestant& method, const std::string& form, double slip)
   finding.what = "rad/s left where it should rest";
   finding.reason =
       "the law is monotone: A-stable methods pass through it; tanh is flat outside its slip velocity";
-  if (!method.can_be_safeguarded() && !explicit_in_forces(method) && slip < 0.1 * h) {
+  if (method.chooses_steps()) {
+    finding.reason = "the law is monotone, and a step that Newton's iteration does not solve is made shorter";
+    // Down to J v_s / T = v_s / 2 s, where half a second of rest takes 1 / v_s of them.
+    if (1.0 / slip > double(most_own_steps)) {
+      finding.at_worst = Grade::failed;
+      finding.reason +=
+          fmt::format(": it may take steps of {:.1g} s, of which there are too many", 0.5 * slip);
+    }
+  } else if (!method.can_be_safeguarded() && !explicit_in_forces(method) && slip < 0.1 * h) {
     finding.at_worst = Grade::failed;
     finding.reason += ", and an iteration without the safeguard jumps from one side of it to the other";
   }
@@ -66,29 +95,14 @@ Finding friction(const Contestant& method, const std::string& form, double slip)
   finding.amount = left;
   finding.measured["rate"] = left;
   finding.measured["energy_gain"] = course.most / course.first - 1.0;
-  // A step of the torque and the slip velocity are what it cannot resolve.
-  if (!(left <= 2.0 * h + slip)) finding.grade = left <= 1.0 ? Grade::degraded : Grade::failed;
+  // A step of the torque and the slip velocity are what it cannot resolve; or what a tolerance permits of the setting in.
+  const double unresolved = method.chooses_steps() ? permitted_by_jump(method, slip) : 2.0 * h;
+  if (!(left <= unresolved + slip)) finding.grade = left <= 1.0 ? Grade::degraded : Grade::failed;
   return finding;
 }
 
-// A ball dropped from half a metre on a stiff ground, without loss: it may come back with less, never with more.
-Finding contact(const Contestant& method, const std::string&, double stiffness) {
-  Json scene = parse_json(R"({"name": "ball",
-    "bodies": [{"name": "ball", "mass": 1, "shape": {"type": "sphere", "radius": 0.1}, "position": [0, 0, 0.6]}],
-    "effects": [{"type": "uniform_gravity", "acceleration": [0, 0, -9.81]}]})",
-                          "ball");
-  scene["effects"].push_back({{"type", "contact"},
-                              {"body", "ball"},
-                              {"radius", 0.1},
-                              {"plane", {{"normal", {0, 0, 1}}}},
-                              {"stiffness", stiffness},
-                              {"exponent", 1.5}});
-  Course course;
-  Finding finding = follow(read_scene(scene), method, "", h, 1.0, course);
-  finding.what = "energy, times the first, after bouncing";
-  // 2.94 delta / v with the penetration delta = (5 m v^2 / (4 k))^(2/5) [Hertz], v = 3.13 m/s after half a metre.
-  const double duration = 2.94 * std::pow(1.25 * 3.13 * 3.13 / stiffness, 0.4) / 3.13;
-  finding.measured["contact_steps"] = duration / h;
+// Of an impact in steps of h.
+void expect_of_fixed_steps(const Contestant& method, double stiffness, double duration, Finding& finding) {
   finding.reason = fmt::format("the impact takes {:.2g} steps", duration / h);
   // What few steps resolve is a jump of the velocity for the method, and how high it comes back depends on where the jump falls.
   if (duration < 20.0 * h) finding.at_worst = Grade::degraded;
@@ -109,9 +123,37 @@ Finding contact(const Contestant& method, const std::string&, double stiffness) 
     finding.at_worst = Grade::failed;
     finding.reason += "; its iteration has no safeguard";
   }
-  if (finding.grade == Grade::failed) return finding;
+}
+
+// A ball dropped from half a metre on a stiff ground, without loss: it may come back with less, never with more.
+Finding contact(const Contestant& method, const std::string&, double stiffness) {
+  Json scene = parse_json(R"({"name": "ball",
+    "bodies": [{"name": "ball", "mass": 1, "shape": {"type": "sphere", "radius": 0.1}, "position": [0, 0, 0.6]}],
+    "effects": [{"type": "uniform_gravity", "acceleration": [0, 0, -9.81]}]})",
+                          "ball");
+  scene["effects"].push_back({{"type", "contact"},
+                              {"body", "ball"},
+                              {"radius", 0.1},
+                              {"plane", {{"normal", {0, 0, 1}}}},
+                              {"stiffness", stiffness},
+                              {"exponent", 1.5}});
+  Course course;
+  Finding finding = follow(read_scene(scene), method, "", h, 1.0, course);
+  finding.what = "energy, times the first, after bouncing";
+  // 2.94 delta / v with the penetration delta = (5 m v^2 / (4 k))^(2/5) [Hertz], v = 3.13 m/s after half a metre.
+  const double duration = 2.94 * std::pow(1.25 * 3.13 * 3.13 / stiffness, 0.4) / 3.13;
+  finding.measured["contact_steps"] = duration / h;
   // From the ground up: 0.5 m of 9.81 N.
   constexpr double ground = 0.1 * 9.81;
+  if (method.chooses_steps()) {
+    expect_by_tolerance(
+        finding, permitted_energy(method, course.end.reached, course.of_tolerance) / (course.first - ground),
+        0.1, 99.0);
+    finding.reason = fmt::format("the impact takes {:.2g} s, and is resolved; ", duration) + finding.reason;
+  } else {
+    expect_of_fixed_steps(method, stiffness, duration, finding);
+  }
+  if (finding.grade == Grade::failed) return finding;
   const double gain = (course.most - ground) / (course.first - ground);
   finding.amount = gain;
   finding.measured["largest_energy"] = gain;
@@ -132,7 +174,15 @@ Finding jump(const Contestant& method, const std::string& form, double) {
   finding.what = "error of the rate, steps of the torque";
   finding.reason = "the jump is known to a step: order 1";
   if (finding.grade == Grade::failed) return finding;
-  const double error = std::abs(course.omega(2) - (0.5 - 0.30005)) / h;
+  double error = std::abs(course.omega(2) - (0.5 - 0.30005)) / h;
+  if (method.chooses_steps()) {
+    const double rate = 0.5 - 0.30005;
+    // Two of these units survive, as two steps do.
+    error *= h / (0.5 * permitted_by_jump(method, rate));
+    finding.what = "error of the rate, halves of the permitted";
+    finding.reason = fmt::format("steps across the jump are rejected until it is worth {:.2g} rad/s",
+                                 permitted_by_jump(method, rate));
+  }
   finding.amount = error;
   finding.measured["error_in_steps"] = error;
   if (!(error <= 2.0)) finding.grade = error <= 20.0 ? Grade::degraded : Grade::failed;
@@ -173,7 +223,9 @@ StabilityCase rough_forces() {
               "survived: at rest within a step's torque and the slip velocity; no more than a tenth of "
               "energy gained at an "
               "impact; a jump resolved to two "
-              "steps; degraded: within 1 rad/s, a hundred times the energy, 20 steps",
+              "steps; degraded: within 1 rad/s, a hundred times the energy, 20 steps; of chosen steps what "
+              "the tolerance permits takes "
+              "the place of steps",
           .theory = "order is lost where a force is rough; boundedness is not",
           .trials = rough_forces_case::trials};
 }

@@ -5,6 +5,7 @@
 
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
+#include "harness/stability/tolerance.h"
 #include "problems/scene_examples.h"
 
 // Mechanisms whose constraints depend on each other: always, somewhere on their way, or nearly.
@@ -53,11 +54,20 @@ Finding examine(const Plan& plan, const Contestant& method, const std::string& f
   run.every = run.steps;
   WatchedState first, last;
   run.watch = [&](const WatchedState& s) { (s.step == 0 ? first : last) = s; };
-  Finding finding = finding_of(run_scene(run));
+  const SceneRunEnd end = run_scene(run);
+  Finding finding = finding_of(end);
   // Its own damping takes more than the criterion at these step sizes.
   if (method.order() == 1 && plan.possible) finding.at_worst = Grade::degraded;
   finding.what = plan.what;
   finding.reason = plan.reason;
+  if (method.chooses_steps() && plan.possible) {
+    // Errors of metres and radians of a motion of one metre.
+    const auto coordinates = Eigen::Index(6 * plan.scene->scene.bodies.size());
+    expect_by_tolerance(finding, permitted_error(method, end.reached, coordinates), plan.allowed,
+                        100.0 * plan.allowed);
+    finding.measured["steps"] = double(end.reached);
+    finding.reason += "; " + plan.reason;
+  }
   if (plan.flat && !method.can_be_safeguarded()) {
     finding.at_worst = Grade::failed;
     finding.reason += "; nothing leads an iteration without the safeguard through them";

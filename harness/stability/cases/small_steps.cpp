@@ -7,10 +7,11 @@
 
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
+#include "harness/stability/tolerance.h"
 #include "integrators/bdf_coefficients.h"
 #include "integrators/radau_coefficients.h"
 
-// The multipliers of the paper's top as h -> 0, in the index-3 form.
+// The multipliers of the paper's top as h -> 0, in the index-3 form; the energy as a tolerance goes to round-off and below.
 
 namespace liebench {
 
@@ -21,7 +22,13 @@ namespace {
 constexpr double eps = 0x1p-52;
 constexpr double mass = 15.0;
 
-std::shared_ptr<const AssembledScene> scene() {
+std::shared_ptr<const AssembledScene> scene(bool constrained = true) {
+  static const auto turning = assembled(read_scene(parse_json(R"({"name": "heavy top about its tip",
+    "bodies": [{"name": "top", "formulation": "SO3", "fixed_point": [0, 0, 0], "mass": 15, "inertia": [0.234375, 0.46875, 0.234375],
+                "position": [0, 1, 0], "angular_velocity": [0, 150, -4.61538]}],
+    "effects": [{"type": "uniform_gravity", "acceleration": [0, 0, -9.81]}]})",
+                                                              "heavy top about its tip")));
+  if (!constrained) return turning;
   static const auto top = assembled(read_scene(parse_json(R"({"name": "heavy top",
     "bodies": [{"name": "top", "mass": 15, "inertia": [0.234375, 0.46875, 0.234375], "position": [0, 1, 0],
                 "velocity": [4.61538, 0, 0], "angular_velocity": [0, 150, -4.61538]}],
@@ -106,10 +113,79 @@ Finding examine(const Contestant& method, const std::string& form, double h) {
   return finding;
 }
 
+// In double, and with a constraint, the velocity of a step is known to some eps |q| / h (integrators/bliedf2nd_variable.h): below
+// this tolerance no step need be accepted.
+constexpr double least_constrained_tolerance = 1e-11;
+
+Finding examine_tolerance(const Contestant& method, const std::string& form) {
+  SceneRun run;
+  run.scene = scene(!form.empty());
+  run.integrator = std::string(method.method->name);
+  run.options = method.options_for(form);
+  run.step_size = 0.1;  // s: 15 rad
+  run.steps = 1;
+  run.watch_own_steps = true;
+  run.most_own_steps = 20'000;
+  double first = 0.0, largest = 0.0, of_tolerance = 0.0;
+  run.watch = [&](const WatchedState& s) {
+    if (s.step == 0) first = s.energy;
+    largest = std::max(largest, std::abs(s.energy - first));
+    of_tolerance = std::max(of_tolerance, s.energy_of_tolerance);
+  };
+  const SceneRunEnd end = run_scene(run);
+  Finding finding = finding_of(end);
+  finding.what = "energy error / permitted";
+  finding.reason = "steps within the tolerance and some units of round-off";
+  finding.measured["steps"] = double(end.reached);
+  finding.measured["shortest_step"] = end.shortest_step;
+  const double tolerance = method.tolerance().value();
+  if (!form.empty() && tolerance < least_constrained_tolerance) {
+    finding.at_worst = Grade::degraded;
+    finding.reason += fmt::format("; below {} step_limit is an answer, too", least_constrained_tolerance);
+    if (end.outcome == Outcome::step_limit) finding.grade = Grade::degraded;
+  }
+  if (finding.outcome != Outcome::ok) return finding;
+  // A step rounds some eight times, as in long_runs.
+  const double permitted =
+      permitted_energy(method, end.reached, of_tolerance) * (1.0 + 8.0 * eps / tolerance);
+  finding.amount = largest / permitted;
+  finding.measured["energy"] = largest;
+  finding.measured["permitted"] = permitted;
+  if (!(*finding.amount <= 1.0)) finding.grade = Grade::failed;
+  return finding;
+}
+
+// For the row of the smaller tolerance.
+void add_tolerances(std::vector<Trial>& all) {
+  static const std::vector<Contestant> tried = [] {
+    std::vector<Contestant> list;
+    for (const char* name : {"bliedf2nd_variable", "rkmk_variable"})
+      for (const double tolerance : {1e-10, 1e-12, 1e-14, 1e-16})
+        list.push_back(contestant(name, {{"tolerance", tolerance}}));
+    return list;
+  }();
+  for (const Contestant& each : tried) {
+    const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+      if (method.method != each.method || *method.tolerance() > 1e-6) return std::nullopt;
+      Trial t;
+      t.contestant = &each;
+      t.variant = fmt::format("tolerance {:.0e}", *each.tolerance());
+      t.parameters = {{"tolerance", *each.tolerance()}};
+      t.work = 30.0;
+      t.run = [&each, form] { return examine_tolerance(each, form); };
+      return t;
+    };
+    add_trials(all, {"", "index3", "stabilized_index2"}, make);
+  }
+}
+
 std::vector<Trial> trials() {
   std::vector<Trial> all;
+  add_tolerances(all);
   for (const double h : {1e-5, 1e-6, 1e-7}) {
     const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+      // A tolerance gives steps and multipliers together: add_tolerances().
+      if (method.chooses_steps()) return std::nullopt;
       Trial t;
       t.variant = fmt::format("h = {:.0e} s", h);
       t.parameters = {{"step_size", h}};
@@ -132,7 +208,9 @@ StabilityCase small_steps() {
           .question = "Do the multipliers keep their digits as h goes to 1e-7 s?",
           .criterion =
               "survived: the error of lambda is within 4 times round-off's floor m eps |x| c / h^2 and the "
-              "method's own error",
+              "method's own error; of chosen steps: that of the energy within the tolerance and round-off; "
+              "degraded: "
+              "step_limit below what a constraint leaves of the velocity",
           .theory = "the condition of the scaled system does not depend on h; Phi is known to eps |x|",
           .trials = small_steps_case::trials};
 }

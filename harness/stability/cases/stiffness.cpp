@@ -6,8 +6,11 @@
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
 #include "harness/stability/linear_theory.h"
+#include "harness/stability/tolerance.h"
 
-// A torsional spring from soft to stiff at one step size: a disc on a hinge, from the exact motion.
+// A torsional spring from soft to stiff at one step size: a disc on a hinge, from the exact motion. A method that chooses its steps is
+// asked what they cost: as many as its tolerance takes to follow what is left of the oscillation, and an explicit one
+// those of its bound of stability after that.
 
 namespace liebench {
 
@@ -128,6 +131,66 @@ Finding examine(const Contestant& method, const std::string& form, double stiffn
   return finding;
 }
 
+// From a whole radian: below it an absolute tolerance of theta says less and less of the motion.
+Finding examine_own_steps(const Contestant& method, const std::string& form, double stiffness,
+                          double damping) {
+  constexpr double start = 1.0;  // rad
+  const std::complex<double> mu = root(stiffness, damping);
+  // Errors that nothing damps add up: some sixteen periods of an undamped spring.
+  const double length = damping == 0.0 ? std::min(1.0, 100.0 / std::abs(mu)) : 1.0;
+  AssembledScene moved = *assembled(disc(!form.empty(), stiffness, damping));
+  BodyDescription& body = moved.scene.bodies[0];
+  body.orientation = {std::cos(0.5 * start), 0.0, 0.0, std::sin(0.5 * start)};
+  body.angular_velocity = {0.0, 0.0, start * (damping == 0.0 ? 0.0 : mu.real())};
+  SceneRun run;
+  run.scene = std::make_shared<AssembledScene>(moved);
+  run.integrator = std::string(method.method->name);
+  run.options = method.options_for(form);
+  run.step_size = length;
+  run.steps = 1;
+  constexpr double factor = 3.0;
+  const double predicted = steps_for_oscillation(method, mu, start, length, 6);
+  run.most_own_steps = std::uint64_t(10.0 * factor * predicted);
+  double energy = 0.0;
+  run.watch = [&](const WatchedState& s) { energy = s.energy; };
+  const SceneRunEnd end = run_scene(run);
+  Finding finding = finding_of(end);
+  finding.what = "steps, times the predicted";
+  finding.measured["h_omega"] = std::abs(mu) * length / double(std::max<std::uint64_t>(1, end.reached));
+  finding.measured["steps"] = double(end.reached);
+  finding.measured["predicted_steps"] = predicted;
+  const double stable = stable_step(method, mu);
+  finding.reason =
+      fmt::format("the tolerance{} {:.2g} steps",
+                  std::isfinite(stable) ? fmt::format(" and stability up to |z| = {:.2g} ask for", stable)
+                                        : std::string(" asks for"),
+                  predicted);
+  // docs/stability.md, "The safeguard": of a body that no joint holds nothing else is as large as the rounding of its torque.
+  if (std::isinf(stable) && form.empty() && damping > 0.0 && stiffness >= 1e6) {
+    finding.at_worst = Grade::failed;
+    finding.reason +=
+        "; but once it rests, an iteration without the safeguard takes the rounding of the torque, K eps, "
+        "for unsolved, and steps are made shorter";
+  }
+  if (finding.grade == Grade::failed) return finding;
+  finding.amount = double(end.reached) / predicted;
+  const double left = std::sqrt(energy / (0.5 * stiffness * start * start));
+  const double exact = std::exp(mu.real() * length), radians = std::abs(mu) * length;
+  // Errors last for as many steps as a damped motion keeps of them.
+  const double ratio = -mu.real() / std::abs(mu);
+  const double lasting = std::min(1.0, 1.0 / (ratio * radians)) * double(end.reached) + 1.0;
+  const double rate = std::abs(mu) * start;
+  const double permitted = permitted_error(method, std::uint64_t(std::ceil(lasting)), 6) *
+                           std::hypot(1.0 / start, (1.0 + rate * exact) / rate);
+  finding.measured["amplitude"] = left;
+  finding.measured["permitted"] = permitted;
+  finding.grade = !(left <= 2.0 * exact + permitted)          ? Grade::failed
+                  : left < 0.5 * exact - permitted            ? Grade::degraded
+                  : double(end.reached) <= factor * predicted ? Grade::survived
+                                                              : Grade::degraded;
+  return finding;
+}
+
 struct Damping {
   double ratio;
   std::string_view words;
@@ -148,7 +211,10 @@ std::vector<Trial> trials() {
         t.variant = fmt::format("{:.0e} N m/rad, {}", stiffness, damped.words);
         t.parameters = {{"stiffness", stiffness}, {"damping_ratio", damped.ratio}};
         t.quick = damped.ratio != 0.01;
-        t.run = [=, &method] { return examine(method, form, stiffness, damping); };
+        t.run = [=, &method] {
+          return method.chooses_steps() ? examine_own_steps(method, form, stiffness, damping)
+                                        : examine(method, form, stiffness, damping);
+        };
         return t;
       };
       add_trials(all, forms, make);
@@ -167,7 +233,9 @@ StabilityCase stiffness() {
           .criterion =
               "survived: the amplitude is within a factor of 2 of the exact one after 1000 steps; degraded: "
               "damped by more; failed: "
-              "grown by more, or ended",
+              "grown by more, or ended; of chosen steps the same up to what the tolerance permits, and no "
+              "more than three "
+              "times as many steps as predicted",
           .theory =
               "the spectral radius of the method at z = h mu: A(alpha)-stability, 90, 90, 86, 73, 52, 18 "
               "degrees for k = 1, ..., 6",

@@ -9,7 +9,8 @@
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
 
-// Motions on which neighbours part exponentially: until when a trajectory stays with the reference.
+// Motions on which neighbours part exponentially: until when a trajectory stays with the reference. A method that chooses its steps is
+// compared with it where they end.
 
 namespace liebench {
 
@@ -65,26 +66,15 @@ double distance(const std::vector<RigidState<double>>& a, const std::vector<Rigi
 // grown there, D(t) = d(t) / d(0) for d(0) = 1e-9.
 struct Known {
   std::shared_ptr<const AssembledScene> scene;
+  SceneReference reference;
   std::vector<std::vector<RigidState<double>>> states;
   std::vector<double> spread;
   double lyapunov = 0.0;  // 1/s, over the whole interval
 
-  explicit Known(const Motion& motion) : scene(assembled(read_scene(parse_json(motion.scene, motion.name)))) {
-    const SceneReference reference(*scene, motion.t_end);
+  explicit Known(const Motion& motion)
+      : scene(assembled(read_scene(parse_json(motion.scene, motion.name)))), reference(*scene, motion.t_end) {
     const auto count = std::size_t(std::llround(motion.t_end / spacing));
-    for (std::size_t i = 0; i <= count; ++i) {
-      const auto point = reference.at(Extended(double(i) * spacing));
-      std::vector<RigidState<double>> bodies;
-      for (const auto& body : reference.model().bodies) {
-        RigidState<Extended> wide;
-        body.read_pose(point.q, wide);
-        RigidState<double> s = RigidState<double>::ground();
-        s.x = wide.x.cast<double>();
-        s.R = wide.R.cast<double>();
-        bodies.push_back(s);
-      }
-      states.push_back(std::move(bodies));
-    }
+    for (std::size_t i = 0; i <= count; ++i) states.push_back(at(double(i) * spacing));
     constexpr double disturbance = 1e-9;
     std::vector<std::vector<RigidState<double>>> plain, moved;
     follow(*scene, motion, plain);
@@ -97,6 +87,20 @@ struct Known {
     for (std::size_t i = 0; i < plain.size(); ++i)
       spread.push_back(distance(plain[i], moved[i]) / disturbance);
     lyapunov = std::log(spread.back() / spread[spread.size() / 10]) / (0.9 * motion.t_end);
+  }
+
+  std::vector<RigidState<double>> at(double t) const {
+    const auto point = reference.at(Extended(t));
+    std::vector<RigidState<double>> bodies;
+    for (const auto& body : reference.model().bodies) {
+      RigidState<Extended> wide;
+      body.read_pose(point.q, wide);
+      RigidState<double> s = RigidState<double>::ground();
+      s.x = wide.x.cast<double>();
+      s.R = wide.R.cast<double>();
+      bodies.push_back(s);
+    }
+    return bodies;
   }
 
  private:
@@ -136,8 +140,15 @@ Finding examine(std::size_t number, const Contestant& method, const std::string&
   bool gone = false;
   std::vector<double> errors;
   run.watch = [&](const WatchedState& s) {
-    const double error = distance(s.bodies, exact.states[errors.size()]);
-    errors.push_back(error);
+    double error = 0.0;
+    if (method.chooses_steps()) {
+      error = distance(s.bodies, exact.at(s.t));
+      // Of a step that leaps over some of the times, for all of them.
+      errors.resize(std::min(std::size_t(s.t / spacing) + 1, exact.states.size()), error);
+    } else {
+      error = distance(s.bodies, exact.states[errors.size()]);
+      errors.push_back(error);
+    }
     if (!gone && !(error <= left)) {
       gone = true;
       leaving = s.t;
@@ -178,12 +189,27 @@ Finding examine(std::size_t number, const Contestant& method, const std::string&
 
 std::vector<Trial> trials() {
   std::vector<Trial> all;
+  for (std::size_t number = 0; number < motions().size(); ++number) {
+    const Motion& motion = motions()[number];
+    const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+      if (!method.chooses_steps()) return std::nullopt;
+      Trial t;
+      t.variant = motion.name;
+      t.parameters = {{"motion", motion.name}, {"t_end", motion.t_end}};
+      t.quick = number == 0;
+      t.work = 3.0 * motion.t_end;
+      t.run = [=, &method] { return examine(number, method, form, spacing); };
+      return t;
+    };
+    add_trials(all, motion.constrained ? constrained_forms : unconstrained, make);
+  }
   for (std::size_t number = 0; number < motions().size(); ++number)
     for (const double h : {2e-2, 5e-3, 1e-3}) {
       const Motion& motion = motions()[number];
       // A tenth of a swing is no step.
       if (motion.constrained && h > 1e-2) continue;
       const TrialMaker make = [&](const Contestant& method, const std::string& form) -> std::optional<Trial> {
+        if (method.chooses_steps()) return std::nullopt;
         Trial t;
         t.variant = fmt::format("{}, h = {} s", motion.name, h);
         t.parameters = {{"motion", motion.name}, {"step_size", h}, {"t_end", motion.t_end}};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "harness/scene_reader.h"
@@ -169,6 +170,66 @@ TEST(SceneRun, AFailureSaysTheStepAndTheTime) {
   EXPECT_EQ(end.failure->step, 50u);
   EXPECT_DOUBLE_EQ(end.failure->time, 0.05);
   EXPECT_EQ(end.reached, 49u);
+}
+
+SceneRun own_steps(const std::shared_ptr<const AssembledScene>& scene, const char* integrator,
+                   double tolerance, const std::string& form) {
+  const Contestant method = contestant(integrator, {{"tolerance", tolerance}});
+  SceneRun run;
+  run.scene = scene;
+  run.integrator = integrator;
+  run.options = method.options_for(form);
+  run.step_size = 0.1;
+  run.steps = 7;
+  return run;
+}
+
+TEST(ChosenSteps, EndAtTheEndOfTheIntervalToTheLastBit) {
+  for (const double direction : {1.0, -1.0}) {
+    SceneRun run = own_steps(double_pendulum(), "bliedf2nd_variable", 1e-6, "index3");
+    run.step_size *= direction;
+    double t = 0.0;
+    run.watch = [&](const WatchedState& s) { t = s.t; };
+    const SceneRunEnd end = run_scene(run);
+    EXPECT_EQ(end.outcome, Outcome::ok);
+    EXPECT_EQ(end.time, run.step_size * 7.0);
+    EXPECT_EQ(t, end.time);
+    EXPECT_GT(end.reached, 10u);
+    EXPECT_GT(end.longest_step, end.shortest_step);
+    EXPECT_LE(end.longest_step, 0.7);
+  }
+}
+
+TEST(ChosenSteps, AreWatchedAtTheFirstBehindEachTimeOrAll) {
+  SceneRun run = own_steps(double_pendulum(), "bliedf2nd_variable", 1e-6, "stabilized_index2");
+  std::vector<double> times, all;
+  run.watch_own_steps = true;
+  run.watch = [&](const WatchedState& s) { all.push_back(s.t); };
+  const SceneRunEnd end = run_scene(run);
+  EXPECT_EQ(all.size(), end.reached + 1);
+  run.watch_own_steps = false;
+  run.every = 2;
+  run.watch = [&](const WatchedState& s) {
+    times.push_back(s.t);
+    EXPECT_GT(s.energy_of_tolerance, 0.0);
+  };
+  run_scene(run);
+  std::vector<double> expected{0.0};
+  for (const double wanted : {0.2, 0.4, 0.6})
+    expected.push_back(*std::lower_bound(all.begin(), all.end(), wanted));
+  expected.push_back(all.back());
+  EXPECT_EQ(times, expected);
+}
+
+TEST(ChosenSteps, AreNoMoreThanAllowed) {
+  SceneRun run = own_steps(double_pendulum(), "bliedf2nd_variable", 1e-8, "index3");
+  run.most_own_steps = 5;
+  const SceneRunEnd end = run_scene(run);
+  EXPECT_EQ(end.outcome, Outcome::step_limit);
+  EXPECT_EQ(end.reached, 5u);
+  ASSERT_TRUE(end.failure.has_value());
+  EXPECT_EQ(end.failure->step, 6u);
+  EXPECT_EQ(end.failure->time, end.time);
 }
 
 }  // namespace

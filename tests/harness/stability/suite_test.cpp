@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -82,12 +83,33 @@ TEST(StabilitySuite, AnUnknownCaseIsRefusedWithTheNearestName) {
 }
 
 // A method is in the suite with every choice of options that sets its members apart, or the suite would say nothing of
-// it. Its cases give step sizes: methods that choose theirs, and with them the solvers from outside, are none of it.
+// it. Solvers from outside run on the heavy top alone, and are none of it.
 TEST(StabilitySuite, EveryMethodOfTheListIsAContestant) {
   std::set<std::string_view> names;
   for (const Contestant& contestant : contestants(true)) names.insert(contestant.method->name);
   for (const MethodInfo& method : methods())
-    EXPECT_EQ(names.contains(method.name), !method.chooses_steps) << method.name;
+    EXPECT_EQ(names.contains(method.name), method.outside == nullptr) << method.name;
+}
+
+// docs/stability.md, "Methods that choose their steps": where they are tried, at either tolerance.
+TEST(StabilitySuite, MethodsThatChooseTheirStepsAreTriedWhereverACaseIsNotAboutFixedOnes) {
+  std::map<std::string, std::set<std::string>> cases;
+  for (const SuiteTrial& trial : suite({}, true))
+    cases[trial.trial.subject].insert(std::string(trial.owner->name));
+  const std::set<std::string> unconstrained{"long_runs",    "large_rotations", "stiffness",
+                                            "rough_forces", "unstable_motion", "degenerate_runs"};
+  std::set<std::string> all = unconstrained;
+  all.insert({"correction_term", "singular", "masses", "bad_beginnings"});
+  int rows = 0;
+  for (const Contestant& contestant : contestants(true)) {
+    if (!contestant.chooses_steps()) continue;
+    ++rows;
+    // Tolerances from 1e-10 on are tried in the row of the smaller one.
+    EXPECT_EQ(cases[contestant.name].erase("small_steps"), *contestant.tolerance() < 1e-6 ? 1u : 0u);
+    EXPECT_EQ(cases[contestant.name], contestant.is("rkmk_variable") ? unconstrained : all)
+        << contestant.name;
+  }
+  EXPECT_EQ(rows, 4);
 }
 
 TEST(StabilitySuite, EveryCaseHasItsSectionInTheDocumentation) {
