@@ -69,7 +69,7 @@ TEST_F(CheckProblemTest, EveryShippedSceneKeepsItsLaws) {
 
 TEST_F(CheckProblemTest, EffectsWithoutAPotentialHaveTheirPower) {
   // Drive, motor, friction, drag, a load that depends on time, contact: what no energy accounts for.
-  folder.write("driven.json", R"({"name": "driven",
+  folder.write("driven.json", R"scene({"name": "driven",
     "bodies": [{"name": "crank", "mass": 1, "inertia": [0.1, 0.01, 0.1], "position": [0, 0.5, 0], "angular_velocity": [0, 0, 2],
                 "velocity": [-1, 0, 0]},
                {"name": "ball", "mass": 2, "inertia": [0.02, 0.02, 0.02], "position": [3, 0, 0.04], "velocity": [1, 0, 0],
@@ -82,14 +82,11 @@ TEST_F(CheckProblemTest, EffectsWithoutAPotentialHaveTheirPower) {
                 {"type": "motor", "joint": "axle", "target": {"polynomial": [0.5, 1]}, "kp": 5, "kd": 1, "limit": 2},
                 {"type": "joint_friction", "joint": "axle", "torque": 0.1, "slip_velocity": 0.01},
                 {"type": "drag", "quadratic": 0.3, "angular_quadratic": 0.2},
-                {"type": "applied_force", "body": "ball", "force": [1, 2, 0], "frame": "body", "factor": {"expression": "1+sin(t)"
-}
-},
+                {"type": "applied_force", "body": "ball", "force": [1, 2, 0], "frame": "body", "factor": {"expression": "1+sin(t)"}},
                 {"type": "contact", "body": "ball", "radius": 0.05, "plane": {"normal": [0, 0, 1]}, "stiffness": 2e4,
-                 "exponent": 1.5, "damping": 2, "friction": 0.5, "slip_velocity": 0.01}]
-})");
+                 "exponent": 1.5, "damping": 2, "friction": 0.5, "slip_velocity": 0.01}]})scene");
   const ProgramResult result = run({"check-problem", "driven.json"});
-EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.status, 0) << result.err;
 }
 
 TEST_F(CheckProblemTest, AVelocityThatTheJointsDoNotAllowIsNamedWithBothNumbers) {
