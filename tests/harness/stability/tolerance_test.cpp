@@ -24,12 +24,12 @@ std::shared_ptr<const AssembledScene> pendulum() {
                                          "pendulum")));
 }
 
-struct DriftLaw {
+struct DriftSeen {
   double energy = 0.0, of_tolerance = 0.0;
   SceneRunEnd end;
 };
 
-DriftLaw drift(const Contestant& method, const std::string& form) {
+DriftSeen drift(const Contestant& method, const std::string& form) {
   SceneRun run;
   run.scene = form.empty() ? tumbling_body() : pendulum();
   run.integrator = std::string(method.method->name);
@@ -37,7 +37,7 @@ DriftLaw drift(const Contestant& method, const std::string& form) {
   run.step_size = 10.0;
   run.steps = 1;
   run.watch_own_steps = true;
-  DriftLaw result;
+  DriftSeen result;
   double first = 0.0;
   run.watch = [&](const WatchedState& s) {
     if (s.step == 0) first = s.energy;
@@ -56,7 +56,7 @@ TEST(Tolerance, PermitsTheDriftOfAMethodThatKeepsItAndOfNoOther) {
       if (std::string_view(name) == "rkmk_variable" && *form != '\0') continue;
       const Contestant kept = contestant(name, {{"tolerance", 1e-8}}),
                        ignored = contestant(name, {{"tolerance", 1.0}});
-      const DriftLaw small = drift(kept, form), large = drift(ignored, form);
+      const DriftSeen small = drift(kept, form), large = drift(ignored, form);
       ASSERT_EQ(small.end.outcome, Outcome::ok) << name << ' ' << form;
       EXPECT_LE(small.energy, permitted_energy(kept, small.end.reached, small.of_tolerance))
           << name << ' ' << form;
