@@ -34,8 +34,9 @@ struct FormulationCheck {
   SystemCheck check;
 };
 
-bool is_file_name(const std::string& text) {
-  return std::filesystem::path(text).extension() == ".json" || text.find('/') != std::string::npos;
+bool is_scene(const std::string& text) {
+  return std::filesystem::path(text).extension() == ".json" || text.find('/') != std::string::npos ||
+         text.starts_with("builtin:");
 }
 
 const ProblemInfo& problem_of(const CheckProblemOptions& options) {
@@ -44,7 +45,7 @@ const ProblemInfo& problem_of(const CheckProblemOptions& options) {
     if (problem.name == options.problem) return problem;
     names.emplace_back(problem.name);
   }
-  if (!is_file_name(options.problem))
+  if (!is_scene(options.problem))
     throw InputError("check-problem",
                      fmt::format("unknown problem \"{}\"; allowed: {}, or a scene, a file whose name ends in "
                                  ".json{}",
@@ -189,7 +190,7 @@ void add_check_problem(CLI::App& app, int& status) {
       "Examples:\n"
       "  liebench check-problem heavy_top\n"
       "  liebench check-problem heavy_top --formulation SO3,SE3 --parameters '{\"mass\": 2}'\n"
-      "  liebench check-problem scene.json --json\n"
+      "  liebench check-problem builtin:bricard --json\n"
       "The laws, and what is allowed: docs/checks.md. Exit status: 0 all laws hold; 1 one fails, named with "
       "its\n"
       "entry and both numbers on standard error; 2 bad input.");

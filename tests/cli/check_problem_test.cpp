@@ -64,7 +64,7 @@ TEST_F(CheckProblemTest, EveryShippedSceneKeepsItsLaws) {
     EXPECT_FALSE(contains(result.err, "fails")) << result.err;
     ++files;
   }
-  EXPECT_EQ(files, 14);
+  EXPECT_EQ(files, 16);
 }
 
 TEST_F(CheckProblemTest, EffectsWithoutAPotentialHaveTheirPower) {
@@ -76,7 +76,7 @@ TEST_F(CheckProblemTest, EffectsWithoutAPotentialHaveTheirPower) {
                 "formulation": "SE3"},
                {"name": "wheel", "mass": 1, "inertia": [0.1, 0.1, 0.2], "position": [0, 0, 3]}],
     "joints": [{"name": "drive", "type": "revolute", "bodies": ["ground", "crank"], "point": [0, 0, 0], "axis": [0, 0, 1],
-                "motion": {"polynomial": [0, 2], "sines": []}},
+                "motion": {"polynomial": [0, 2]}},
                {"name": "axle", "type": "revolute", "bodies": ["ground", "wheel"], "point": [0, 0, 3], "axis": [0, 0, 1]}],
     "effects": [{"type": "uniform_gravity", "acceleration": [0, 0, -9.81]},
                 {"type": "motor", "joint": "axle", "target": {"polynomial": [0.5, 1]}, "kp": 5, "kd": 1, "limit": 2},

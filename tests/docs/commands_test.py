@@ -31,7 +31,7 @@ FIRST_WORD = (
 COMMAND = re.compile(rf"{FIRST_WORD}(?: |$)")
 SYNOPSIS = re.compile(r"(?:build/\w+/)?liebench .*(?:\[|\w\|\w|\b[A-Z]{2,}\b)")
 # The text speaks of a program.
-NAME = re.compile(r"(?:build/release/)?liebench(?:_benchmarks)?(?: \w+)?")
+NAME = re.compile(r"(?:build/release/)?liebench(?:_benchmarks)?(?: \w[\w-]*)?")
 
 # What is longer than a second, and what stands in its place: the same command, less of it.
 SHORTENED = [
