@@ -46,8 +46,11 @@ std::optional<RunFailure> follow_plan(const S& system, const SimulationPlan& pla
                                       const std::function<void(const Sample&)>& take) {
   const auto stepper = any_stepper(plan.method, system);
   std::vector<SolutionPoint<S>> points(std::size_t(stepper->starting_points()));
+  const auto time_of = [&](std::uint64_t n) {
+    return plan.chooses_steps ? stepper->time() : double(n) * plan.step_size;
+  };
   const auto failure = [&](const StepResult& result, std::uint64_t n) {
-    return RunFailure{.time = double(n) * plan.step_size,
+    return RunFailure{.time = time_of(n),
                       .step = n,
                       .residual = result.residual,
                       .message = std::string(detail::explanation(result.outcome))};
@@ -55,16 +58,22 @@ std::optional<RunFailure> follow_plan(const S& system, const SimulationPlan& pla
   const auto first = std::uint64_t(stepper->steps());
   if (const StepResult start = stepper->start_itself(plan.step_size, points); start.outcome != Outcome::ok)
     return failure(start, first - 1);
-  const auto wanted = [&](std::uint64_t n) { return n % plan.every == 0 || n == plan.steps; };
+  const auto wanted = [&](std::uint64_t n) {
+    return n % plan.every == 0 || (plan.chooses_steps ? stepper->finished() : n == plan.steps);
+  };
   for (std::uint64_t n = 0; n < first && n <= plan.steps; ++n)
     if (wanted(n)) {
       const SolutionPoint<S>& p = points[std::size_t(n)];
-      take(sample_of(system, double(n) * plan.step_size, p.q, p.v, p.lambda));
+      take(sample_of(system, time_of(n), p.q, p.v, p.lambda));
     }
-  for (std::uint64_t n = first; n <= plan.steps; ++n) {
+  for (std::uint64_t n = first; !stepper->finished(); ++n) {
+    if (n > plan.steps) {
+      if (plan.chooses_steps) return failure({Outcome::step_limit}, n);
+      break;
+    }
     if (const StepResult result = stepper->step(); result.outcome != Outcome::ok) return failure(result, n);
     if (wanted(n))
-      take(sample_of(system, double(n) * plan.step_size, stepper->configuration(), stepper->velocity(),
+      take(sample_of(system, time_of(n), stepper->configuration(), stepper->velocity(),
                      stepper->multipliers()));
   }
   return std::nullopt;

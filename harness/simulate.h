@@ -34,9 +34,12 @@ struct Sample {
 
 struct SimulationPlan {
   MethodOptions method;
+  // Of a method that chooses its steps the length of the interval, and the most steps that it may choose (harness/run.h).
   double step_size = 0.0;
   std::uint64_t steps = 0;
+  bool chooses_steps = false;
   std::uint64_t every = 1;  // samples: every n-th step, the initial state and the last
+  double length() const { return chooses_steps ? step_size : step_size * double(steps); }
 };
 
 // Runs the plan and hands each sample on as soon as it is there. The failure of the run, if it failed.

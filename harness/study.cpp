@@ -163,8 +163,6 @@ std::vector<MethodChoice> read_methods(const JsonView& list, Start start) {
   return choices;
 }
 
-// The most steps that a method may choose: what takes more ends as step_limit.
-constexpr std::uint64_t most_chosen_steps = 10'000'000;
 
 // Options without those that mean nothing for this formulation.
 OptionValues applicable_options(const MethodInfo& method, OptionValues options,

@@ -43,6 +43,9 @@ struct Study {
 // The largest number of steps that a run may ask for.
 inline constexpr double most_steps = 1e9;
 
+// The most steps that a method may choose: what takes more ends as step_limit.
+inline constexpr std::uint64_t most_chosen_steps = 10'000'000;
+
 // Version of the numerical code: part of every key, raised whenever a change alters results.
 inline constexpr int numerical_version = 4;
 

@@ -82,6 +82,10 @@ BarChart effects_chart(const std::string& scene, const std::vector<Ablation>& ro
 void run_effects(const EffectsOptions& options) {
   if (!options.picture.empty()) require_gnuplot();
   const ScenePlan made = plan_scene(options.plan);
+  if (made.plan.chooses_steps)
+    throw InputError(
+        "--integrator",
+        options.plan.integrator + " chooses its steps; what effects cost is compared in the same ones");
   const std::string& name = made.scene.scene.name;
   std::vector<Ablation> rows;
   {
@@ -126,7 +130,7 @@ void add_effects(CLI::App& app, int&) {
       });
   command->footer(
       "Examples:\n"
-      "  liebench effects problems/scenes/flyball_governor.json --picture governor.svg\n"
+      "  liebench effects builtin:flyball_governor --picture governor.svg\n"
       "  liebench effects scene.json --integrator generalized_alpha --h 1e-4 --t-end 0.5 --format csv\n"
       "Times are medians of interleaved repetitions on this machine; operations are counted and the same "
       "everywhere.");

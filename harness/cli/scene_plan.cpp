@@ -17,9 +17,9 @@ namespace liebench {
 
 namespace {
 
-// "k=3", "form=stabilized_index2": values as in a study.
-MethodOptions method_options(const std::string& integrator, const std::vector<std::string>& given,
-                             bool constrained) {
+constexpr double usual_step_size = 1e-3;
+
+const MethodInfo& method_of(const std::string& integrator, bool constrained) {
   std::vector<std::string> names;
   for (const MethodInfo& method : methods()) names.emplace_back(method.name);
   const MethodInfo* method = find_method(integrator);
@@ -28,14 +28,27 @@ MethodOptions method_options(const std::string& integrator, const std::vector<st
                                                  quoted_list(names), suggestion(integrator, names)));
   if (const std::string reason = misfit(*method, constrained, "scene"); !reason.empty())
     throw InputError("--integrator", reason);
-  if (method->chooses_steps)
-    throw InputError("--integrator", fmt::format("{} chooses its steps, and here they are those of --h; "
-                                                 "studies run it (liebench run)",
-                                                 integrator));
+  return *method;
+}
+
+// Steps are either given or chosen by a tolerance.
+void check_steps(const MethodInfo& method, const ScenePlanOptions& options) {
+  if (method.chooses_steps && options.step_size)
+    throw InputError("--h",
+                     fmt::format("{} chooses its steps; give a --tolerance in its place", method.name));
+  if (!method.chooses_steps && options.tolerance)
+    throw InputError("--tolerance",
+                     fmt::format("{} takes the steps of --h and knows no tolerance", method.name));
+}
+
+// "k=3", "form=stabilized_index2": values as in a study.
+MethodOptions method_options(const MethodInfo* method, const ScenePlanOptions& options, bool constrained) {
   std::vector<std::string> keys;
   for (const OptionInfo& info : method->options) keys.emplace_back(info.name);
   OptionValues values;
   for (const OptionInfo& info : method->options) values.set(info.name, option_default(info, true));
+  std::vector<std::string> given = options.options;
+  if (options.tolerance) given.push_back(fmt::format("tolerance={}", *options.tolerance));
   for (const std::string& text : given) {
     const std::string key = text.substr(0, text.find('='));
     const auto info = std::find_if(method->options.begin(), method->options.end(),
@@ -51,7 +64,7 @@ MethodOptions method_options(const std::string& integrator, const std::vector<st
   for (const OptionInfo& info : method->options)
     if (!applies(info, constrained, values)) values.erase(info.name);
   RunRequest request;
-  request.integrator = integrator;
+  request.integrator = options.integrator;
   request.options = values;
   return detail::options_of(request);
 }
@@ -69,10 +82,12 @@ void add_scene_plan(CLI::App& command, ScenePlanOptions& options) {
       .add_option("--option", options.options,
                   "an option of the method, as often as needed; liebench describe NAME")
       ->type_name("KEY=VALUE");
-  command.add_option("--h", options.step_size, "step size in s; made smaller until it divides the interval")
+  command
+      .add_option("--h", options.step_size,
+                  fmt::format("step size in s; made smaller until it divides the interval; {} where absent",
+                              usual_step_size))
       ->type_name("H")
-      ->check(positive_number())
-      ->capture_default_str();
+      ->check(positive_number());
   command.add_option("--t-end", options.t_end, "end of the interval in s; the scene's own where absent")
       ->type_name("T")
       ->check(positive_number());
@@ -98,11 +113,21 @@ ScenePlan plan_scene(const ScenePlanOptions& options) {
   ScenePlan result{assembled_scene(options.scene), {}};
   const AssembledScene& scene = result.scene;
   const double t_end = options.t_end > 0.0 ? options.t_end : scene.scene.duration;
-  const double steps = std::ceil(t_end / options.step_size * (1.0 - 1e-12));
+  const bool constrained = !multiplier_names(scene).empty();
+  const MethodInfo& method = method_of(options.integrator, constrained);
+  check_steps(method, options);
+  result.plan.method = method_options(&method, options, constrained);
+  result.plan.chooses_steps = method.chooses_steps;
+  if (method.chooses_steps) {
+    result.plan.step_size = t_end;
+    result.plan.steps = most_chosen_steps;
+    return result;
+  }
+  const double h = options.step_size.value_or(usual_step_size);
+  const double steps = std::ceil(t_end / h * (1.0 - 1e-12));
   if (!(steps <= most_steps))
-    throw InputError("--h", fmt::format("{} would take {:.3g} steps; at most {:.0e} are allowed",
-                                        options.step_size, steps, most_steps));
-  result.plan.method = method_options(options.integrator, options.options, !multiplier_names(scene).empty());
+    throw InputError(
+        "--h", fmt::format("{} would take {:.3g} steps; at most {:.0e} are allowed", h, steps, most_steps));
   result.plan.step_size = t_end / steps;
   result.plan.steps = std::uint64_t(steps);
   return result;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,9 @@ struct ScenePlanOptions {
   std::string scene;
   std::string integrator = "bliedf2nd";
   std::vector<std::string> options;
-  double step_size = 1e-3;
-  double t_end = 0.0;  // 0: the scene's own
+  std::optional<double> step_size;
+  std::optional<double> tolerance;  // of a method that chooses its steps
+  double t_end = 0.0;               // 0: the scene's own
 };
 
 struct ScenePlan {

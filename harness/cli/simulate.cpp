@@ -82,7 +82,7 @@ void run_simulation(const SimulateOptions& options) {
   SimulationPlan plan = made.plan;
   plan.every = options.every;
   const auto rows = multiplier_names(scene);
-  const double t_end = plan.step_size * double(plan.steps);
+  const double t_end = plan.length();
   std::FILE* file = stdout;
   if (!options.out.empty()) {
     file = std::fopen(options.out.c_str(), "w");
@@ -124,6 +124,12 @@ void add_simulate(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("simulate", "One trajectory of a scene, as CSV or JSON lines");
   auto options = std::make_shared<SimulateOptions>();
   add_scene_plan(*command, options->plan);
+  command
+      ->add_option(
+          "--tolerance", options->plan.tolerance,
+          "in place of --h, of a method that chooses its steps: the error of one; rows are its own steps")
+      ->type_name("TOL")
+      ->check(positive_number());
   command->add_option("--every", options->every, "write every n-th step only")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000}))
@@ -136,9 +142,10 @@ void add_simulate(CLI::App& app, int&) {
       ->type_name("FILE");
   command->footer(
       "Examples:\n"
-      "  liebench simulate problems/scenes/double_pendulum.json --out pendulum.csv\n"
+      "  liebench simulate builtin:double_pendulum --out pendulum.csv\n"
       "  liebench simulate scene.json --integrator generalized_alpha --option rho_inf=0.8 --h 1e-4 --every "
       "10\n"
+      "  liebench simulate scene.json --integrator bliedf2nd_variable --tolerance 1e-8\n"
       "  liebench simulate scene.json --option k=4 --option form=stabilized_index2 --format jsonl");
   command->callback([options] { run_simulation(*options); });
 }

@@ -55,6 +55,44 @@ TEST_F(SceneCommandsTest, SimulateWritesTheTrajectoryAsCsv) {
   EXPECT_LE(last[constraint], 1e-14);
 }
 
+TEST_F(SceneCommandsTest, SimulateByToleranceWritesTheStepsThatTheMethodChooses) {
+  const auto rows = [&](const char* tolerance) {
+    const ProgramResult result = run({"simulate", scene("slow_top"), "--integrator", "bliedf2nd_variable",
+                                      "--tolerance", tolerance, "--t-end", "0.5"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return lines_of(result.out);
+  };
+  const auto coarse = rows("1e-4"), fine = rows("1e-7");
+  EXPECT_GT(coarse.size(), 10u);
+  EXPECT_GT(fine.size(), 2 * coarse.size());
+  const std::size_t energy = column_of(fine[0], "energy");
+  for (const auto& lines : {coarse, fine}) {
+    EXPECT_EQ(numbers_of(lines[1])[0], 0.0);
+    EXPECT_EQ(numbers_of(lines.back())[0], 0.5);
+    for (std::size_t i = 2; i < lines.size(); ++i)
+      EXPECT_GT(numbers_of(lines[i])[0], numbers_of(lines[i - 1])[0]) << i;
+  }
+  const auto drift = [&](const std::vector<std::string>& lines) {
+    return std::abs(numbers_of(lines.back())[energy] - numbers_of(lines[1])[energy]);
+  };
+  EXPECT_LT(drift(fine), drift(coarse));
+}
+
+TEST_F(SceneCommandsTest, StepsAreGivenOrChosenByATolerance) {
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& what) {
+    arguments.insert(arguments.begin(), {"simulate", scene("slow_top")});
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_TRUE(contains(result.err, what)) << result.err;
+  };
+  refused({"--integrator", "bliedf2nd_variable", "--h", "1e-3"},
+          "--h: bliedf2nd_variable chooses its steps; give a --tolerance in its place");
+  refused({"--tolerance", "1e-3"}, "--tolerance: bliedf2nd takes the steps of --h and knows no tolerance");
+  const ProgramResult effects = run({"effects", scene("slow_top"), "--integrator", "bliedf2nd_variable"});
+  EXPECT_EQ(effects.status, 2);
+  EXPECT_TRUE(contains(effects.err, "chooses its steps")) << effects.err;
+}
+
 TEST_F(SceneCommandsTest, SimulateWritesJsonLinesOfTheSameNumbers) {
   const std::vector<std::string> common{"simulate", scene("double_pendulum"), "--h", "0.01", "--t-end", "0.1",
                                         "--option", "form=stabilized_index2"};
