@@ -163,7 +163,6 @@ std::vector<MethodChoice> read_methods(const JsonView& list, Start start) {
   return choices;
 }
 
-
 // Options without those that mean nothing for this formulation.
 OptionValues applicable_options(const MethodInfo& method, OptionValues options,
                                 const FormulationInfo& formulation) {
