@@ -138,7 +138,8 @@ std::string cost_report(const std::vector<RecordRow>& records) {
       "method from "
       "its own start, which is part of the cost. Numbers are interpolated between runs (rules: "
       "[tables](tables.md)); "
-      "\"e\": extrapolated by a decade at most; \"c\": the coarsest run that ends well is better already; a "
+      "\"e\": extrapolated by a decade at most; \"c\": at most, for the coarsest run is better already or "
+      "the next coarser one failed; a "
       "dash: not "
       "reached. The least of a column is bold. Errors are the relative error of q at the end.\n";
   if (!times) text += "\nNo run was timed (short form): floating point operations only.\n";

@@ -139,9 +139,9 @@ std::string field_report(const std::vector<RecordRow>& records) {
       "from initial "
       "values alone; errors are the relative error of q at the end. Numbers are interpolated between runs "
       "(rules: "
-      "[tables](tables.md)); \"e\": extrapolated by a decade at most; \"c\": the coarsest run that ends well "
-      "is better "
-      "already; a dash: not reached. The least of a column is bold. Constrained methods with a choice are in "
+      "[tables](tables.md)); \"e\": extrapolated by a decade at most; \"c\": at most, for the coarsest run "
+      "is better already or the next coarser one failed; a dash: not reached. The least of a column is bold. "
+      "Constrained methods with a choice are in "
       "the stabilized "
       "index-2 form unless they say otherwise. [What it shows](field.md), in words.\n";
   if (!times) text += "\nNo run was timed (short form): floating point operations only.\n";

@@ -122,6 +122,17 @@ std::vector<ProblemChoice> read_problems(const JsonView& list) {
   return choices;
 }
 
+// An option that other methods have.
+void require_option_of(const MethodInfo& method, const JsonView& entry, const std::string& key) {
+  std::vector<std::string> others;
+  for (const MethodInfo& other : methods())
+    if (has_option(other, key)) others.emplace_back(other.name);
+  if (others.empty()) return;
+  throw InputError(entry[key].pointer(),
+                   fmt::format("{} has no option \"{}\" and integrates {}; methods that have it: {}",
+                               method.name, key, fits_text(method), quoted_list(others)));
+}
+
 std::vector<MethodChoice> read_methods(const JsonView& list, Start start) {
   list.require_array();
   std::vector<MethodChoice> choices;
@@ -143,6 +154,8 @@ std::vector<MethodChoice> read_methods(const JsonView& list, Start start) {
     }
     std::vector<std::string> keys{"name"};
     for (const OptionInfo& info : method.options) keys.emplace_back(info.name);
+    for (const auto& [key, value] : entry.value().items())
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) require_option_of(method, entry, key);
     entry.require_object(keys);
     std::vector<OptionValues> expanded(1);
     for (const OptionInfo& info : method.options) {
@@ -377,6 +390,10 @@ Study read_study(const Json& json) {
   const bool all_choose = std::all_of(method_choices.begin(), method_choices.end(),
                                       [](const MethodChoice& c) { return c.method->chooses_steps; });
   if (!all_choose) root.require_key("step_sizes");
+  if (all_choose && root.has("step_sizes"))
+    throw InputError(
+        root["step_sizes"].pointer(),
+        "is not allowed here: all methods of this study choose their steps, by their \"tolerance\"");
   const auto sizes = root.has("step_sizes") ? read_step_sizes(root["step_sizes"]) : std::vector<StepSize>{};
   const Interval interval = read_interval(root);
   std::vector<Precision> precisions;

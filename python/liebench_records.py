@@ -158,10 +158,14 @@ def curve_names(runs: pd.DataFrame) -> pd.Series:
 def _label(column: str) -> Callable[[object], object]:
     speaks_for_itself = column in ("problem", "formulation", "integrator", "precision")
     before = "" if speaks_for_itself else column.rpartition(".")[2] + " = "
+    # As JSON has them; an option is an integer as often as not, which pandas makes a float where some runs lack it.
+    is_time = column in ("t_0", "t_end")
 
     def label(value: object) -> object:
         if isinstance(value, float):
-            return math.nan if math.isnan(value) else f"{before}{value:.12g}"
+            if math.isnan(value):
+                return math.nan
+            return f"{before}{float(value)!r}" if is_time else f"{before}{value:.12g}"
         return f"{before}{value}"
 
     return label

@@ -34,11 +34,25 @@ const MethodInfo& method_of(const std::string& integrator, bool constrained) {
 // Steps are either given or chosen by a tolerance.
 void check_steps(const MethodInfo& method, const ScenePlanOptions& options) {
   if (method.chooses_steps && options.step_size)
-    throw InputError("--h",
-                     fmt::format("{} chooses its steps; give a --tolerance in its place", method.name));
-  if (!method.chooses_steps && options.tolerance)
-    throw InputError("--tolerance",
-                     fmt::format("{} takes the steps of --h and knows no tolerance", method.name));
+    throw InputError("--h", fmt::format("{} chooses its steps, by a tolerance", method.name));
+  if (!options.tolerance) return;
+  if (!method.chooses_steps) {
+    std::vector<std::string> choosing;
+    for (const MethodInfo& other : methods())
+      if (other.chooses_steps && other.outside == nullptr) choosing.emplace_back(other.name);
+    throw InputError(
+        "--tolerance",
+        fmt::format("{} takes the steps of --h and knows no tolerance; methods that choose their "
+                    "steps: {}",
+                    method.name, quoted_list(choosing)));
+  }
+  for (const std::string& text : options.options)
+    if (text.starts_with("tolerance="))
+      throw InputError("--tolerance", fmt::format("is given twice, by --option {}, too", text));
+  constexpr double least = 1e-15;
+  if (*options.tolerance < least)
+    throw InputError("--tolerance", fmt::format("{} is below the round-off of double; allowed: {} and more",
+                                                *options.tolerance, least));
 }
 
 // "k=3", "form=stabilized_index2": values as in a study.

@@ -86,8 +86,14 @@ TEST_F(SceneCommandsTest, StepsAreGivenOrChosenByATolerance) {
     EXPECT_TRUE(contains(result.err, what)) << result.err;
   };
   refused({"--integrator", "bliedf2nd_variable", "--h", "1e-3"},
-          "--h: bliedf2nd_variable chooses its steps; give a --tolerance in its place");
-  refused({"--tolerance", "1e-3"}, "--tolerance: bliedf2nd takes the steps of --h and knows no tolerance");
+          "--h: bliedf2nd_variable chooses its steps, by a tolerance");
+  refused({"--tolerance", "1e-3"},
+          "--tolerance: bliedf2nd takes the steps of --h and knows no tolerance; methods that choose their "
+          "steps: "
+          "\"bliedf2nd_variable\"");
+  refused({"--integrator", "bliedf2nd_variable", "--tolerance", "1e-30"}, "below the round-off of double");
+  refused({"--integrator", "bliedf2nd_variable", "--tolerance", "1e-6", "--option", "tolerance=1e-3"},
+          "is given twice");
   const ProgramResult effects = run({"effects", scene("slow_top"), "--integrator", "bliedf2nd_variable"});
   EXPECT_EQ(effects.status, 2);
   EXPECT_TRUE(contains(effects.err, "chooses its steps")) << effects.err;
