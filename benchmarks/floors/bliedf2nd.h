@@ -10,7 +10,6 @@ class BLieDF2nd {
  public:
   using System = typename Top::System;
   using Vector = typename Top::Vector;
-  using Group = typename System::Group;
   static constexpr int starting_points = 4;
 
   void start(double h, std::span<const SolutionPoint<System>> points) {
@@ -18,14 +17,8 @@ class BLieDF2nd {
     t_ = points[2].t;
     q_ = configuration_from<typename Top::Configuration>(points[2].q);
     v_ = from_eigen(points[2].v);
-    const auto increment = [&](int j) {
-      return from_eigen((Group::log(Group::compose(Group::inverse(points[std::size_t(j)].q),
-                                                   points[std::size_t(j + 1)].q)) /
-                         h)
-                            .eval());
-    };
-    const Vector older = increment(0);
-    increment_ = increment(1);
+    const Vector older = increment_from(h, points, 0);
+    increment_ = increment_from(h, points, 1);
     increment_changes_[0] = increment_ - older;
     velocity_changes_[0] = v_ - from_eigen(points[1].v);
     velocity_changes_[1] = from_eigen(points[1].v) - from_eigen(points[0].v);

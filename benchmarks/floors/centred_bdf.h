@@ -101,7 +101,6 @@ class CentredBdf {
  public:
   using System = typename Top::System;
   using Vector = typename Top::Vector;
-  using Group = typename System::Group;
   static constexpr int starting_points = 4;
 
   void start(double h, std::span<const SolutionPoint<System>> points) {
@@ -109,14 +108,8 @@ class CentredBdf {
     t_ = points[2].t;
     q_ = configuration_from<typename Top::Configuration>(points[2].q);
     v_ = from_eigen(points[2].v);
-    const auto increment = [&](int j) {
-      return from_eigen((Group::log(Group::compose(Group::inverse(points[std::size_t(j)].q),
-                                                   points[std::size_t(j + 1)].q)) /
-                         h)
-                            .eval());
-    };
-    const Vector older = increment(0);
-    increment_ = increment(1);
+    const Vector older = increment_from(h, points, 0);
+    increment_ = increment_from(h, points, 1);
     for (const Vector& Dq : {older, increment_}) accept(h * rotation(Dq), exp(h * rotation(Dq)));
     increment_changes_[0] = increment_ - older;
     count_ = 1;

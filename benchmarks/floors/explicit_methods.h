@@ -2,9 +2,8 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 
-#include "benchmarks/floors/floor.h"
+#include "benchmarks/floors/one_step.h"
 #include "benchmarks/floors/top.h"
 #include "integrators/runge_kutta_tableau.h"
 
@@ -20,33 +19,8 @@ inline Vec3 top_acceleration(const Mat3& R, const Vec3& w) {
           ((top::tip1 - top::tip2) * w.x * w.y - g * R.zx) * (1.0 / top::tip3)};
 }
 
-// What the floors of explicit methods share: state and start.
-class ExplicitFloor {
- public:
-  using System = HeavyTopSO3<double>;
-  struct Configuration {
-    Mat3 R;
-  };
-  static constexpr int starting_points = 1;
-
-  void start(double h, std::span<const SolutionPoint<System>> points) {
-    h_ = h;
-    t_ = points[0].t;
-    q_ = configuration_from<Configuration>(points[0].q);
-    v_ = from_eigen(points[0].v);
-  }
-  double time() const { return t_; }
-  const Configuration& configuration() const { return q_; }
-  const Vec3& velocity() const { return v_; }
-
- protected:
-  double h_ = 0.0, t_ = 0.0;
-  Configuration q_{};
-  Vec3 v_{};
-};
-
 // RKMK with Kutta's tableau of order 4.
-class Rk4 : public ExplicitFloor {
+class Rk4 : public SO3Floor {
  public:
   bool step() {
     const double half = 0.5 * h_;
@@ -71,7 +45,7 @@ class Rk4 : public ExplicitFloor {
 
 // RKMK with any tableau: loops over its stages, which the compiler unrolls.
 template <const auto& tableau>
-class MuntheKaas : public ExplicitFloor {
+class MuntheKaas : public SO3Floor {
  public:
   [[gnu::flatten]] bool step() {
     constexpr std::size_t s = tableau.stages;
@@ -106,7 +80,7 @@ class MuntheKaas : public ExplicitFloor {
 };
 
 // Commutator-free CF4.
-class Cf4 : public ExplicitFloor {
+class Cf4 : public SO3Floor {
  public:
   bool step() {
     const double half = 0.5 * h_;
@@ -133,7 +107,7 @@ class Cf4 : public ExplicitFloor {
 };
 
 // Crouch & Grossman's method of order 3.
-class Cg3 : public ExplicitFloor {
+class Cg3 : public SO3Floor {
  public:
   bool step() {
     const Vec3 F1 = top_acceleration(q_.R, v_);

@@ -12,12 +12,12 @@ namespace liebench::floors {
 
 // The k-step Adams-Bashforth method of Faltinsen, Marthinsen & Munthe-Kaas, k >= 3: integrators/faltinsen_adams.h has the equations.
 template <int k>
-class FaltinsenAdams : public ExplicitFloor {
+class FaltinsenAdams : public SO3Floor {
  public:
   static constexpr int starting_points = k;
 
   void start(double h, std::span<const SolutionPoint<System>> points) {
-    ExplicitFloor::start(h, points.subspan(k - 1));
+    SO3Floor::start(h, points.subspan(k - 1));
     for (std::size_t j = 0; j + 1 < std::size_t(k); ++j) {
       const Mat3 R = from_eigen(points[j].q);
       const Mat3 motion = transposed(R) * from_eigen(points[j + 1].q);

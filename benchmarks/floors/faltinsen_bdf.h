@@ -77,7 +77,6 @@ class FaltinsenBdf {
  public:
   using System = typename Top::System;
   using Vector = typename Top::Vector;
-  using Group = typename System::Group;
   static constexpr int starting_points = 4;
 
   void start(double h, std::span<const SolutionPoint<System>> points) {
@@ -85,14 +84,8 @@ class FaltinsenBdf {
     t_ = points[2].t;
     q_ = configuration_from<typename Top::Configuration>(points[2].q);
     v_ = from_eigen(points[2].v);
-    const auto increment = [&](int j) {
-      return from_eigen((Group::log(Group::compose(Group::inverse(points[std::size_t(j)].q),
-                                                   points[std::size_t(j + 1)].q)) /
-                         h)
-                            .eval());
-    };
-    const Vector older = increment(0);
-    increment_ = increment(1);
+    const Vector older = increment_from(h, points, 0);
+    increment_ = increment_from(h, points, 1);
     motion_ = exp(h * rotation(increment_));
     older_motion_ = exp(h * rotation(older));
     increment_changes_[0] = increment_ - older;

@@ -91,6 +91,13 @@ inline Vec3 log(const Mat3& R) {
   return (2.0 / (root * root) * p) * doubled;
 }
 
+// Dq of the step from points[j], by the groups' own logarithm.
+template <class System>
+auto increment_from(double h, std::span<const SolutionPoint<System>> points, std::size_t j) {
+  using Group = typename System::Group;
+  return from_eigen((Group::log(Group::compose(Group::inverse(points[j].q), points[j + 1].q)) / h).eval());
+}
+
 // v and h v' affine in the change of the increment: BLieDF2nd and generalized-alpha.
 template <class Vector>
 struct AffineClosure {

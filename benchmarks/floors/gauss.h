@@ -16,10 +16,10 @@ namespace liebench::floors {
 // Gauss collocation with `stages` stages for the top on SO(3), by hand: integrators/gauss.h has the equations, the iteration and the
 // rules by which it ends. The two matrices are those of that iteration, dF/dv written out.
 template <int stages>
-class Gauss : public ExplicitFloor {
+class Gauss : public SO3Floor {
  public:
   void start(double h, std::span<const SolutionPoint<System>> points) {
-    ExplicitFloor::start(h, points);
+    SO3Floor::start(h, points);
     const GaussCoefficients<double> all(stages);
     for (std::size_t i = 0; i < s; ++i) {
       b_[i] = all.b[i];

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <span>
 
-#include "benchmarks/floors/floor.h"
 #include "benchmarks/floors/lu.h"
+#include "benchmarks/floors/one_step.h"
 #include "benchmarks/floors/tip_force.h"
 #include "benchmarks/floors/top.h"
 #include "groups/rotation_coefficients.h"
@@ -18,17 +18,10 @@
 namespace liebench::floors {
 
 template <const auto& tableau, bool projection>
-class HalfExplicit {
+class HalfExplicit : public TipFloor {
  public:
-  using System = HeavyTopR3xSO3<double>;
-  using Configuration = TipPoint;
-  static constexpr int starting_points = 1;
-
   void start(double h, std::span<const SolutionPoint<System>> points) {
-    h_ = h;
-    t_ = points[0].t;
-    q_ = at(from_eigen(points[0].q.first), from_eigen(points[0].q.second));
-    v_ = from_eigen(points[0].v);
+    TipFloor::start(h, points);
     lambda_ = from_eigen(points[0].lambda);
   }
 
@@ -85,16 +78,6 @@ class HalfExplicit {
     return true;
   }
 
-  double time() const {
-    return t_;
-  }
-  const Configuration& configuration() const {
-    return q_;
-  }
-  const Vec6& velocity() const {
-    return v_;
-  }
-
  private:
   static constexpr std::size_t s = tableau.stages;
 
@@ -138,10 +121,8 @@ class HalfExplicit {
   }
 
   TipForce force_;
-  double h_ = 0.0, t_ = 0.0;
   bool has_acceleration_ = false;
-  Configuration q_{};
-  Vec6 v_{}, acceleration_{};
+  Vec6 acceleration_{};
   Vec3 lambda_{};
 };
 

@@ -62,10 +62,10 @@ class RadauTangents {
   const RadauStages<Mat3>& T_;
 };
 
-class SO3Radau : public ExplicitFloor {
+class SO3Radau : public SO3Floor {
  public:
   void start(double h, std::span<const SolutionPoint<System>> points) {
-    ExplicitFloor::start(h, points);
+    SO3Floor::start(h, points);
     for (std::size_t i = 0; i < radau_stages; ++i)
       predicted_[i] = (coefficients_.c[i] * h) * from_eigen(points[0].acceleration);
   }
@@ -173,17 +173,10 @@ class SO3Radau : public ExplicitFloor {
 
 // The constrained top: unknowns (z, h Lambda), and eta in the stabilized index-2 form.
 template <bool stabilized>
-class R3xSO3Radau {
+class R3xSO3Radau : public TipFloor {
  public:
-  using System = HeavyTopR3xSO3<double>;
-  using Configuration = TipPoint;
-  static constexpr int starting_points = 1;
-
   void start(double h, std::span<const SolutionPoint<System>> points) {
-    h_ = h;
-    t_ = points[0].t;
-    q_ = at(from_eigen(points[0].q.first), from_eigen(points[0].q.second));
-    v_ = from_eigen(points[0].v);
+    TipFloor::start(h, points);
     for (std::size_t i = 0; i < radau_stages; ++i) {
       predicted_.z[i] = (coefficients_.c[i] * h) * from_eigen(points[0].acceleration);
       predicted_.lambda[i] = h * from_eigen(points[0].lambda);
@@ -207,9 +200,6 @@ class R3xSO3Radau {
     return true;
   }
 
-  double time() const { return t_; }
-  const Configuration& configuration() const { return q_; }
-  const Vec6& velocity() const { return v_; }
   const KeptMatrix& kept() const { return kept_; }
 
  private:
@@ -357,9 +347,6 @@ class R3xSO3Radau {
   RadauCoefficients<double> coefficients_;
   KeptMatrix kept_;
   Lu<n> lu_;
-  double h_ = 0.0, t_ = 0.0;
-  TipPoint q_{};
-  Vec6 v_{};
   Vec3 lambda_{};
   Unknowns predicted_;
 };

@@ -3,34 +3,21 @@
 #include <span>
 
 #include "benchmarks/floors/momentum_top.h"
+#include "benchmarks/floors/one_step.h"
 
 namespace liebench::floors {
 
 // What floors of steps that balance the momentum of the top on SO(3) share.
-class SO3MomentumFloor {
+class SO3MomentumFloor : public SO3Floor {
  public:
-  using System = HeavyTopSO3<double>;
-  struct Configuration {
-    Mat3 R;
-  };
-  static constexpr int starting_points = 1;
-
   void start(double h, std::span<const SolutionPoint<System>> points) {
-    h_ = h;
-    t_ = points[0].t;
-    q_ = configuration_from<Configuration>(points[0].q);
-    v_ = from_eigen(points[0].v);
+    SO3Floor::start(h, points);
     force_ = tip_force(q_.R);
     first_change_ = (0.5 * h) * from_eigen(points[0].acceleration);
   }
-  double time() const { return t_; }
-  const Configuration& configuration() const { return q_; }
-  const Vec3& velocity() const { return v_; }
 
  protected:
-  double h_ = 0.0, t_ = 0.0;
-  Configuration q_{};
-  Vec3 v_{}, force_{}, first_change_{};
+  Vec3 force_{}, first_change_{};
 };
 
 // RATTLie of the top on SO(3): the method of Stoermer and Verlet.
@@ -62,22 +49,12 @@ class SO3Rattlie : public SO3MomentumFloor {
 };
 
 // What RATTLie and SHAKELie of the constrained top share: each is one solution of its equation ahead.
-class VariationalFloor {
+class VariationalFloor : public TipFloor {
  public:
-  using System = HeavyTopR3xSO3<double>;
-  using Configuration = TipPoint;
-  static constexpr int starting_points = 1;
-
   void start(double h, std::span<const SolutionPoint<System>> points) {
-    h_ = h;
-    t_ = points[0].t;
-    q_ = at(from_eigen(points[0].q.first), from_eigen(points[0].q.second));
-    v_ = from_eigen(points[0].v);
+    TipFloor::start(h, points);
     first_ = {(0.5 * h) * from_eigen(points[0].acceleration), (0.5 * h) * from_eigen(points[0].lambda)};
   }
-  double time() const { return t_; }
-  const Configuration& configuration() const { return q_; }
-  const Vec6& velocity() const { return v_; }
   const KeptMatrix& kept() const { return top_.kept; }
 
  protected:
@@ -107,9 +84,6 @@ class VariationalFloor {
   }
 
   R3xSO3MomentumTop top_;
-  double h_ = 0.0, t_ = 0.0;
-  TipPoint q_{};
-  Vec6 v_{};
   Vec3 lambda_{};
   Solution ahead_{};
   bool is_ahead_ = false;

@@ -1,18 +1,12 @@
 #pragma once
 
-#include "benchmarks/floors/floor.h"
+#include "benchmarks/floors/one_step.h"
 
 namespace liebench::floors {
 
 // What floors of one-step methods of the top on SO(3) share that solve for a change of velocity.
-class SymmetricFloor {
+class SymmetricFloor : public SO3Floor {
  public:
-  using System = HeavyTopSO3<double>;
-  static constexpr int starting_points = 1;
-
-  double time() const { return t_; }
-  const SO3Top::Configuration& configuration() const { return q_; }
-  const Vec3& velocity() const { return v_; }
   const KeptMatrix& kept() const { return top_.kept; }
 
  protected:
@@ -28,9 +22,6 @@ class SymmetricFloor {
   }
 
   SO3Top top_;
-  double h_ = 0.0, t_ = 0.0;
-  SO3Top::Configuration q_{};
-  Vec3 v_{};
   Vec3 changes_[3]{};
   int count_ = 0;
 };
@@ -39,10 +30,7 @@ class SymmetricFloor {
 class Newmark : public SymmetricFloor {
  public:
   void start(double h, std::span<const SolutionPoint<System>> points) {
-    h_ = h;
-    t_ = points[0].t;
-    q_ = configuration_from<SO3Top::Configuration>(points[0].q);
-    v_ = from_eigen(points[0].v);
+    SO3Floor::start(h, points);
     scaled_acceleration_ = h * from_eigen(points[0].acceleration);
   }
 
@@ -71,10 +59,7 @@ class Newmark : public SymmetricFloor {
 class ImplicitMidpoint : public SymmetricFloor {
  public:
   void start(double h, std::span<const SolutionPoint<System>> points) {
-    h_ = h;
-    t_ = points[0].t;
-    q_ = configuration_from<SO3Top::Configuration>(points[0].q);
-    v_ = from_eigen(points[0].v);
+    SO3Floor::start(h, points);
     first_change_ = (0.5 * h) * from_eigen(points[0].acceleration);
   }
 
