@@ -55,6 +55,13 @@ bool has_option(const MethodInfo& method, std::string_view option) {
                      [&](const OptionInfo& info) { return info.name == option; });
 }
 
+std::string methods_that_choose_steps(bool with_outside) {
+  std::vector<std::string> names;
+  for (const MethodInfo& method : methods())
+    if (method.chooses_steps && (with_outside || method.outside == nullptr)) names.emplace_back(method.name);
+  return quoted_list(names);
+}
+
 std::string fits_text(const MethodInfo& method) {
   if (method.outside != nullptr)
     return fmt::format("the heavy top in the formulation \"{}\" alone", method.outside->formulation);

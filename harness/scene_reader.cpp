@@ -10,8 +10,6 @@ namespace liebench {
 
 namespace {
 
-constexpr std::string_view builtin = "builtin:";
-
 // A list that may be left out or empty.
 std::size_t list_size(const JsonView& scene, const char* key) {
   if (!scene.has(key)) return 0;
@@ -63,14 +61,14 @@ SceneDescription read_scene(const Json& json, const std::string& where) {
 std::vector<std::string> builtin_scenes() {
   std::vector<std::string> names;
   for (const std::string_view name : embedded_scene_names())
-    names.push_back(std::string(builtin) + std::string(name.substr(0, name.rfind('.'))));
+    names.push_back(std::string(builtin_prefix) + std::string(name.substr(0, name.rfind('.'))));
   return names;
 }
 
 Json read_scene_json(const std::filesystem::path& file) {
   const std::string name = file.string();
-  if (!name.starts_with(builtin)) return read_json_file(file, largest_scene_file);
-  const std::string_view text = embedded_scene(name.substr(builtin.size()) + ".json");
+  if (!name.starts_with(builtin_prefix)) return read_json_file(file, largest_scene_file);
+  const std::string_view text = embedded_scene(name.substr(builtin_prefix.size()) + ".json");
   if (text.empty()) {
     const std::vector<std::string> names = builtin_scenes();
     throw InputError(name, fmt::format("no such scene; in the program are {}{}", quoted_list(names),

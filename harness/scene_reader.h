@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/strict_json.h"
@@ -16,6 +17,9 @@ inline constexpr std::uintmax_t largest_scene_file = 64u << 20;  // bytes
 
 // Throws InputError with the JSON pointer of the first thing that is wrong. `where`: the pointer of the scene itself.
 SceneDescription read_scene(const Json& scene, const std::string& where = "");
+
+// Before the name of a scene that is compiled into the program.
+inline constexpr std::string_view builtin_prefix = "builtin:";
 
 // Of a file, or of one of the scenes that are compiled into the program: "builtin:bricard". The place of an InputError is the
 // file with the pointer behind "#": "top.json#/bodies/0/mass".

@@ -122,8 +122,8 @@ std::vector<ProblemChoice> read_problems(const JsonView& list) {
   return choices;
 }
 
-// An option that other methods have.
-void require_option_of(const MethodInfo& method, const JsonView& entry, const std::string& key) {
+// Where other methods have it; another key is refused with those that are allowed.
+void refuse_option_of_others(const MethodInfo& method, const JsonView& entry, const std::string& key) {
   std::vector<std::string> others;
   for (const MethodInfo& other : methods())
     if (has_option(other, key)) others.emplace_back(other.name);
@@ -141,21 +141,17 @@ std::vector<MethodChoice> read_methods(const JsonView& list, Start start) {
     if (!entry.value().is_object()) entry.reject("an object with the key \"name\"");
     entry.require_key("name");
     const MethodInfo& method = by_name(methods(), entry["name"], "integrator");
-    if (entry.has("tolerance") && !method.chooses_steps) {
-      std::vector<std::string> choosing;
-      for (const MethodInfo& other : methods())
-        if (other.chooses_steps) choosing.emplace_back(other.name);
+    if (entry.has("tolerance") && !method.chooses_steps)
       throw InputError(
           entry["tolerance"].pointer(),
           fmt::format(
               "{} takes the steps of \"step_sizes\" and knows no tolerance; methods that choose their "
               "steps: {}",
-              method.name, quoted_list(choosing)));
-    }
+              method.name, methods_that_choose_steps(true)));
     std::vector<std::string> keys{"name"};
     for (const OptionInfo& info : method.options) keys.emplace_back(info.name);
     for (const auto& [key, value] : entry.value().items())
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) require_option_of(method, entry, key);
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) refuse_option_of_others(method, entry, key);
     entry.require_object(keys);
     std::vector<OptionValues> expanded(1);
     for (const OptionInfo& info : method.options) {

@@ -14,6 +14,7 @@
 #include "harness/errors.h"
 #include "harness/problems.h"
 #include "harness/scene_problem.h"
+#include "harness/scene_reader.h"
 #include "harness/strict_json.h"
 #include "harness/table.h"
 
@@ -36,7 +37,7 @@ struct FormulationCheck {
 
 bool is_scene(const std::string& text) {
   return std::filesystem::path(text).extension() == ".json" || text.find('/') != std::string::npos ||
-         text.starts_with("builtin:");
+         text.starts_with(builtin_prefix);
 }
 
 const ProblemInfo& problem_of(const CheckProblemOptions& options) {

@@ -36,16 +36,12 @@ void check_steps(const MethodInfo& method, const ScenePlanOptions& options) {
   if (method.chooses_steps && options.step_size)
     throw InputError("--h", fmt::format("{} chooses its steps, by a tolerance", method.name));
   if (!options.tolerance) return;
-  if (!method.chooses_steps) {
-    std::vector<std::string> choosing;
-    for (const MethodInfo& other : methods())
-      if (other.chooses_steps && other.outside == nullptr) choosing.emplace_back(other.name);
+  if (!method.chooses_steps)
     throw InputError(
         "--tolerance",
         fmt::format("{} takes the steps of --h and knows no tolerance; methods that choose their "
                     "steps: {}",
-                    method.name, quoted_list(choosing)));
-  }
+                    method.name, methods_that_choose_steps(false)));
   for (const std::string& text : options.options)
     if (text.starts_with("tolerance="))
       throw InputError("--tolerance", fmt::format("is given twice, by --option {}, too", text));
