@@ -70,6 +70,14 @@ Finding examine_own_steps(const Plan& plan, const SceneRunEnd& end, double energ
   return finding;
 }
 
+// All stages of a step lie before its end (HERK3: 2/3, CG3: 17/24, Adams: its beginning): one that ends where the force does is still
+// possible.
+bool asks_no_force_at_the_end(const Contestant& method) {
+  if (method.is("half_explicit")) return method.options.choice("tableau") == "herk3";
+  return method.is("gauss") || method.is("implicit_midpoint") || method.is("crouch_grossman") ||
+         method.is("faltinsen_adams");
+}
+
 Finding examine(const Plan& plan, const Contestant& method, const std::string& form) {
   SceneRun run;
   run.scene = pendulum(plan.factor, !form.empty());
@@ -89,10 +97,7 @@ Finding examine(const Plan& plan, const Contestant& method, const std::string& f
   finding.measured["reached"] = double(end.reached);
   if (!plan.possible) {
     // To end with an outcome that says when is to survive.
-    // The last stage of HERK3 is two thirds of a step ahead: the step that ends where the force does is still possible.
-    const bool early =
-        method.is("half_explicit") && method.options.choice("tableau") == "herk3" && plan.last > 0;
-    const std::uint64_t last = plan.last + (early ? 1 : 0);
+    const std::uint64_t last = plan.last + (plan.last > 0 && asks_no_force_at_the_end(method) ? 1 : 0);
     finding.grade = end.outcome != Outcome::ok && end.reached == last ? Grade::survived : Grade::failed;
     return finding;
   }
