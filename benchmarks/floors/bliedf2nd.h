@@ -17,8 +17,8 @@ class BLieDF2nd {
     t_ = points[2].t;
     q_ = configuration_from<typename Top::Configuration>(points[2].q);
     v_ = from_eigen(points[2].v);
-    const Vector older = increment_from(h, points, 0);
-    increment_ = increment_from(h, points, 1);
+    const Vector older = increment_from<System>(h, points, 0);
+    increment_ = increment_from<System>(h, points, 1);
     increment_changes_[0] = increment_ - older;
     velocity_changes_[0] = v_ - from_eigen(points[1].v);
     velocity_changes_[1] = from_eigen(points[1].v) - from_eigen(points[0].v);

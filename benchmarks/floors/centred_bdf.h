@@ -108,8 +108,8 @@ class CentredBdf {
     t_ = points[2].t;
     q_ = configuration_from<typename Top::Configuration>(points[2].q);
     v_ = from_eigen(points[2].v);
-    const Vector older = increment_from(h, points, 0);
-    increment_ = increment_from(h, points, 1);
+    const Vector older = increment_from<System>(h, points, 0);
+    increment_ = increment_from<System>(h, points, 1);
     for (const Vector& Dq : {older, increment_}) accept(h * rotation(Dq), exp(h * rotation(Dq)));
     increment_changes_[0] = increment_ - older;
     count_ = 1;

@@ -84,8 +84,8 @@ class FaltinsenBdf {
     t_ = points[2].t;
     q_ = configuration_from<typename Top::Configuration>(points[2].q);
     v_ = from_eigen(points[2].v);
-    const Vector older = increment_from(h, points, 0);
-    increment_ = increment_from(h, points, 1);
+    const Vector older = increment_from<System>(h, points, 0);
+    increment_ = increment_from<System>(h, points, 1);
     motion_ = exp(h * rotation(increment_));
     older_motion_ = exp(h * rotation(older));
     increment_changes_[0] = increment_ - older;
