@@ -115,14 +115,17 @@ Figure field_figure(const std::vector<RecordRow>& records) {
                     .secondary = each.outside,
                     .mark = each.mark,
                     .tag = each.tag};
+      // From step to step: where something is stiff a finer one is not always the dearer one.
+      std::vector<std::pair<double, Point>> by_step;
       for (const RecordRow& record : records) {
         if (!problem.is(*record.curve) || !is(*record.curve, each)) continue;
         const auto value = value_of(record, x);
         if (const auto error = error_of(record, end_error); error && value)
-          series.points.push_back({*value, *error});
+          by_step.push_back({record.step_size(), {*value, *error}});
       }
-      std::sort(series.points.begin(), series.points.end(),
-                [](const Point& a, const Point& b) { return a.x < b.x; });
+      std::sort(by_step.begin(), by_step.end(),
+                [](const auto& a, const auto& b) { return a.first > b.first; });
+      for (const auto& [step, point] : by_step) series.points.push_back(point);
       if (!series.points.empty()) panel.series.push_back(std::move(series));
     }
     figure.panels.push_back(std::move(panel));

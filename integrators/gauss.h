@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "groups/entrywise.h"
@@ -72,17 +73,19 @@ struct Gauss {
   }
 };
 
-// The stage equations are solved by an iteration that takes the configurations, the velocities and the kinematics in turn. With Q_i
-// kept, V and F are solved for by the simplified Newton iteration of the matrix I - h A (x) J, J = dF/dv at t_n; with V_i kept, K by
-// that of I + h A_centred (x) dT^{-1}, T^{-1}(Theta) V = V - 1/2 [V, Theta] - tau/12 [V, [V, Theta]] for Theta = tau v_n; then Q_i
-// follow, on which F depends by h^2 only. A fast rotation is nearly all in the two matrices: on the fast top, in steps of one radian,
-// errors fall by 1e-4 in each turn, by 1e-1 without them. The inverses serve as many steps as they are worth. A system of more
-// than one body has none: there it is the fixed-point iteration.
+// The stage equations are solved by an iteration that takes the velocities and the kinematics in turn. F is solved for by the
+// simplified Newton iteration of the matrix I - h A (x) J - h^2 A^2 (x) C, J = dF/dv and C = dF/dq at t_n, with K = V in the
+// configurations that follow F: the last term is what is stiff in springs. With V_i kept, K is solved for by that of
+// I + h A_centred (x) dT^{-1}, T^{-1}(Theta) V = V - 1/2 [V, Theta] - tau/12 [V, [V, Theta]] for Theta = tau v_n; then Q_i follow. A fast
+// rotation is nearly all in the two matrices: on the fast top, in steps of one radian, errors fall by 1e-4 in each turn, by 1e-1
+// without them. The inverses serve as many steps as they are worth. A system of more than one body has none: there it is the
+// fixed-point iteration.
 //
 // Stopping rule, that of integrators/newton.h: changes of K_i and h F_i in units of round-off of the largest velocity; rate, the
 // contraction seen. The iteration ends
 //   - converged, when the change or the predicted next one is below 1/20;
-//   - converged at the round-off floor, when changes no longer shrink by a factor of 2 and are below 32 units;
+//   - converged at the round-off floor, when changes no longer shrink by a factor of 2 and are below 32 units, or below 32 times what the
+//     rounding of q makes of h F_i: h |C| eps (|q| + h^2 |F|), or 1 / h in place of h |C|, where the inverse takes the rest;
 //   - newton_diverged, when above that floor, with matrices formed in this step, a change grows after one that did not shrink by a
 //     factor of 2; and after 100 turns.
 template <MechanicalSystem S, class Audit>
@@ -134,6 +137,11 @@ class Gauss::Stepper {
         step_centred_[i][j] = h * coefficients_.centred[i][j];
       }
     }
+    for (std::size_t i = 0; i < stages(); ++i)
+      for (std::size_t j = 0; j < stages(); ++j) {
+        step_squared_[i][j] = T(0.0);
+        for (std::size_t l = 0; l < stages(); ++l) step_squared_[i][j] += step_a_[i][l] * step_a_[l][j];
+      }
     first_ = true;
     formed_ = false;
     return {};
@@ -166,16 +174,23 @@ class Gauss::Stepper {
   Eigen::Index unknowns() const { return coefficients_.stages * velocity_size(system_); }
   bool newton() const { return velocity_size(system_) <= most_velocities; }
 
+  // The number of stages, known to the compiler where a step is so short that loops are a part of its time.
   StepResult take_step() {
+    if constexpr (m != run_time_size)
+      if (stages() == 2) return take_step(std::integral_constant<std::size_t, 2>());
+    return take_step(stages());
+  }
+  template <class Count>
+  StepResult take_step(Count s) {
     if (Outcome turned = outcome_of_turn(system_, Velocity<S>(h_ * velocity_)); turned != Outcome::ok)
       return {turned};
     bool fresh = !formed_ || marginal_cost_exceeds_average();
     if (fresh)
       if (const Outcome formed = form(); formed != Outcome::ok) return {formed};
-    StepResult result = iterate();
+    StepResult result = iterate(s);
     if (result.outcome == Outcome::newton_diverged && newton() && !fresh) {
       if (const Outcome formed = form(); formed != Outcome::ok) return {formed};
-      result = iterate();
+      result = iterate(s);
     }
     if (result.outcome != Outcome::ok) {
       formed_ = false;
@@ -184,7 +199,7 @@ class Gauss::Stepper {
     const Velocity<S> step = T(2.0) * turn_;
     if (const Outcome turned = outcome_of_turn(system_, step); turned != Outcome::ok) return {turned};
     Velocity<S> change = coefficients_.b[0] * F_[0];
-    add_weighted(coefficients_.b, 1, F_, change);
+    add_weighted(s, coefficients_.b, 1, F_, change);
     // Summed with what the sum rounded away before [Kahan 1965; Hairer, Lubich & Wanner 2006, VIII.5].
     const Velocity<S> corrected = h_ * change + rounding_;
     Velocity<S> sum = velocity_;
@@ -196,42 +211,44 @@ class Gauss::Stepper {
     rounding_ = corrected - added;
     velocity_ = sum;
     t_ = t_ + h_;
-    for (std::size_t i = 0; i < stages(); ++i) last_F_[i] = F_[i];
+    for (std::size_t i = 0; i < s; ++i) last_F_[i] = F_[i];
     first_ = false;
     return result;
   }
 
   // F_i as the collocation polynomial of the last step goes on, V_i, and K_i from V_i.
-  void predict() {
-    for (std::size_t i = 0; i < stages(); ++i) {
+  template <class Count>
+  void predict(Count s) {
+    for (std::size_t i = 0; i < s; ++i) {
       if (first_) {
         F_[i] = last_F_[i];
         continue;
       }
       const auto& weights = coefficients_.extrapolation[i];
       F_[i] = weights[0] * last_F_[0];
-      add_weighted(weights, 1, last_F_, F_[i]);
+      add_weighted(s, weights, 1, last_F_, F_[i]);
     }
-    put_velocities();
-    for (std::size_t i = 0; i < stages(); ++i) K_[i] = V_[i];
-    put_angles();
+    put_velocities(s);
+    for (std::size_t i = 0; i < s; ++i) K_[i] = V_[i];
+    put_angles(s);
   }
 
-  StepResult iterate() {
+  template <class Count>
+  StepResult iterate(Count s) {
     const auto group = group_of(system_);
-    predict();
-    correct_kinematics();
+    predict(s);
+    correct_kinematics(s);
     Linear previous(0.0);
     bool stalled = false;
     for (int iteration = 1;; ++iteration) {
       const Configuration<S> middle = group.compose(q_, group.exp(turn_));
-      for (std::size_t i = 0; i < stages(); ++i) Q_[i] = group.compose(middle, group.exp(Theta_[i]));
+      for (std::size_t i = 0; i < s; ++i) Q_[i] = group.compose(middle, group.exp(Theta_[i]));
       Linear change(0.0);
-      if (!correct_velocities(change)) return {Outcome::singular_matrix};
+      if (!correct_velocities(s, change)) return {Outcome::singular_matrix};
       change = change * abs_of(to_linear(h_));
       // Twice: it takes little, and the first change is that of V_i.
-      correct_kinematics();
-      const Linear kinematic_change = correct_kinematics();
+      correct_kinematics(s);
+      const Linear kinematic_change = correct_kinematics(s);
       if (change < kinematic_change) change = kinematic_change;
 
       if (!std::isfinite(to_double(change))) return {Outcome::non_finite};
@@ -244,7 +261,7 @@ class Gauss::Stepper {
         return {};
       }
       if (iteration > 1 && rate > Linear(slowest_rate)) {
-        if (size <= Linear(noise)) {
+        if (size <= Linear(noise) || change <= Linear(noise) * configuration_rounding()) {
           finish(iteration);
           return {};
         }
@@ -259,10 +276,11 @@ class Gauss::Stepper {
   }
 
   // One simplified Newton step for F with Q_i kept, and V of it. `change` of F_i; false where M is singular.
-  bool correct_velocities(Linear& change) {
+  template <class Count>
+  bool correct_velocities(Count s, Linear& change) {
     const std::size_t n = velocities();
     Velocity<S> F;
-    for (std::size_t i = 0; i < stages(); ++i) {
+    for (std::size_t i = 0; i < s; ++i) {
       if (!acceleration(T(t_ + coefficients_.c[i] * h_), Q_[i], V_[i], F)) return false;
       const Velocity<S> residual = F - F_[i];
       if (newton())
@@ -270,52 +288,56 @@ class Gauss::Stepper {
       else
         F_[i] += take(residual, change);
     }
-    if (newton()) add_correction(velocity_inverse_, F_, change);
-    put_velocities();
+    if (newton()) add_correction(s, velocity_inverse_, F_, change);
+    put_velocities(s);
     return true;
   }
 
   // The same for K with V_i kept, and Theta_i and Y of it.
-  Linear correct_kinematics() {
+  template <class Count>
+  Linear correct_kinematics(Count s) {
     const auto group = group_of(system_);
     const std::size_t n = velocities();
     Linear change(0.0);
     const bool solves = newton() && has_commutators(system_);
-    for (std::size_t i = 0; i < stages(); ++i) {
+    for (std::size_t i = 0; i < s; ++i) {
       const Velocity<S> residual = group.tangent_inverse_times(Theta_[i], V_[i]) - K_[i];
       if (solves)
         put(residual, i * n);
       else
         K_[i] += take(residual, change);
     }
-    if (solves) add_correction(kinematic_inverse_, K_, change);
-    put_angles();
+    if (solves) add_correction(s, kinematic_inverse_, K_, change);
+    put_angles(s);
     return change;
   }
 
-  void put_velocities() {
-    for (std::size_t i = 0; i < stages(); ++i) {
+  template <class Count>
+  void put_velocities(Count s) {
+    for (std::size_t i = 0; i < s; ++i) {
       V_[i] = velocity_;
-      add_weighted(step_a_[i], 0, F_, V_[i]);
+      add_weighted(s, step_a_[i], 0, F_, V_[i]);
     }
   }
-  void put_angles() {
+  template <class Count>
+  void put_angles(Count s) {
     turn_ = coefficients_.b[0] * K_[0];
-    add_weighted(coefficients_.b, 1, K_, turn_);
+    add_weighted(s, coefficients_.b, 1, K_, turn_);
     turn_ *= h_ * T(0.5);
-    for (std::size_t i = 0; i < stages(); ++i) {
+    for (std::size_t i = 0; i < s; ++i) {
       Theta_[i] = step_centred_[i][0] * K_[0];
-      add_weighted(step_centred_[i], 1, K_, Theta_[i]);
+      add_weighted(s, step_centred_[i], 1, K_, Theta_[i]);
     }
   }
   // sum += sum_j weights[j] x[j], j = first, ...; in registers where the size is known.
-  void add_weighted(const typename GaussCoefficients<T>::Row& weights, std::size_t first, const Stages& x,
-                    Velocity<S>& sum) const {
+  template <class Count>
+  void add_weighted(Count s, const typename GaussCoefficients<T>::Row& weights, std::size_t first,
+                    const Stages& x, Velocity<S>& sum) const {
     if constexpr (m == run_time_size) {
-      for (std::size_t j = first; j < stages(); ++j) sum += weights[j] * x[j];
+      for (std::size_t j = first; j < s; ++j) sum += weights[j] * x[j];
     } else {
       Velocity<S> local = sum;
-      for (std::size_t j = first; j < stages(); ++j) local += weights[j] * x[j];
+      for (std::size_t j = first; j < s; ++j) local += weights[j] * x[j];
       sum = local;
     }
   }
@@ -325,15 +347,16 @@ class Gauss::Stepper {
       residual_.data()[place + d] = to_linear(residual(Eigen::Index(d)));
   }
   // x += inverse residual. Sums of rows in registers: in memory each waits for what was stored of it just before.
-  void add_correction(const Inverse& inverse, Stages& x, Linear& change) {
-    const std::size_t n = std::size_t(unknowns());
+  template <class Count>
+  void add_correction(Count s, const Inverse& inverse, Stages& x, Linear& change) {
+    const std::size_t n = s * velocities();
     Linear* const to = correction_.data();
     std::size_t row = 0;
     for (; row + 6 <= n; row += 6) put_rows<6>(inverse.data() + row, n, to + row);
     for (; row + 3 <= n; row += 3) put_rows<3>(inverse.data() + row, n, to + row);
     for (; row < n; ++row) put_rows<1>(inverse.data() + row, n, to + row);
     std::size_t next = 0;
-    for (std::size_t i = 0; i < stages(); ++i)
+    for (std::size_t i = 0; i < s; ++i)
       for (std::size_t d = 0; d < velocities(); ++d, ++next) {
         x[i](Eigen::Index(d)) += T(to[next]);
         take_size(abs_of(to[next]), change);
@@ -363,6 +386,14 @@ class Gauss::Stepper {
     return mass_.solve(system_, q, force, F, audit_);
   }
 
+  // Of h F_i, by the rounding of q_n and of h V_i, a sum of h^2 F_j.
+  Linear configuration_rounding() const {
+    const Linear h = abs_of(to_linear(h_));
+    Linear force(0.0);
+    for (std::size_t i = 0; i < stages(); ++i) take(F_[i], force);
+    const Linear q = to_linear(T(S::Group::stacked(q_).template lpNorm<Eigen::Infinity>())) + h * h * force;
+    return Linear(to_double(Eigen::NumTraits<T>::epsilon())) * q * std::min(h * stiffness_, Linear(1.0) / h);
+  }
   // In units of round-off of the largest velocity.
   Linear in_units(const Linear& change) const {
     Linear scale(0.0);
@@ -379,17 +410,18 @@ class Gauss::Stepper {
     steps_ = 0;
     last_ = 0;
     if (!newton()) return Outcome::ok;
-    // J column by column in central differences, which are exact for the inertial forces, quadratic in v: no system is asked for more than
-    // its force. As wide as the cube root of round-off, where the error of others is least.
+    // J and C column by column in central differences, exact in J for the inertial forces, quadratic in v: no system is asked for more
+    // than its force. As wide as the cube root of round-off, where the error of others is least.
     Linear speed(0.0);
     take(velocity_, speed);
-    const Linear width = Linear(std::cbrt(to_double(Eigen::NumTraits<Linear>::epsilon()))) *
-                         (speed + Linear(1.0) / abs_of(to_linear(h_)));
+    const Linear root(std::cbrt(to_double(Eigen::NumTraits<Linear>::epsilon())));
+    const Linear width = root * (speed + Linear(1.0) / abs_of(to_linear(h_)));
     Velocity<S> forth, back;
     const bool turns = has_commutators(system_);
     const auto group = group_of(system_);
     set_identity(velocity_inverse_);
     if (turns) set_identity(kinematic_inverse_);
+    stiffness_ = Linear(0.0);
     for (std::size_t e = 0; e < velocities(); ++e) {
       Velocity<S> direction = zero_velocity(system_);
       direction(Eigen::Index(e)) = T(width);
@@ -398,6 +430,14 @@ class Gauss::Stepper {
         return Outcome::singular_matrix;
       const Velocity<S> J = (forth - back) / T(Linear(2.0) * width);
       subtract_column(velocity_inverse_, step_a_, e, [&](std::size_t) -> const Velocity<S>& { return J; });
+      direction(Eigen::Index(e)) = T(root);
+      if (!acceleration(t_, group.compose(q_, group.exp(direction)), velocity_, forth) ||
+          !acceleration(t_, group.compose(q_, group.exp(Velocity<S>(-direction))), velocity_, back))
+        return Outcome::singular_matrix;
+      const Velocity<S> C = (forth - back) / T(Linear(2.0) * root);
+      take(C, stiffness_);
+      subtract_column(velocity_inverse_, step_squared_, e,
+                      [&](std::size_t) -> const Velocity<S>& { return C; });
       if (!turns) continue;
       direction(Eigen::Index(e)) = T(1.0);
       const Velocity<S> once = group.commutator(velocity_, direction);
@@ -449,6 +489,7 @@ class Gauss::Stepper {
   MassSolver<S> mass_;
   GaussCoefficients<T> coefficients_;
   Weights step_a_{}, step_centred_{};  // h a_ij, h (a_ij - b_j / 2)
+  Weights step_squared_{};             // h^2 sum_l a_il a_lj
   T h_ = T(0.0);
   T t_ = T(0.0);
   Configuration<S> q_;
@@ -464,6 +505,7 @@ class Gauss::Stepper {
   Inverse velocity_inverse_, kinematic_inverse_;
   Column residual_, correction_;
   bool formed_ = false;
+  Linear stiffness_ = Linear(0.0);  // the largest entry of C
   Linear rate_ = Linear(1.0);
   double sweeps_ = 0.0;
   int steps_ = 0;  // since the matrices were formed

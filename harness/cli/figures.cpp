@@ -18,6 +18,7 @@
 #include "harness/record_reader.h"
 #include "harness/study.h"
 #include "harness/timing.h"
+#include "harness/unfinished.h"
 #include "harness/verification.h"
 #include "plots/gnuplot.h"
 
@@ -61,12 +62,14 @@ std::string json_lines(const std::vector<Json>& records) {
 
 // The times of the figures that show them, after all other runs.
 void add_times(const std::vector<PaperFigure>& chosen, const std::vector<RunSpec>& runs,
-               const std::vector<std::size_t>& ends, std::vector<Json>& records) {
+               const std::vector<std::size_t>& ends, std::vector<Json>& records,
+               UnfinishedRecords& unfinished) {
   std::vector<RunSpec> timed;
   std::vector<std::size_t> places;
   for (std::size_t number = 0, i = 0; number < chosen.size(); ++number)
     for (; i < ends[number]; ++i)
-      if (chosen[number].timed && is_timed(runs[i]) && records[i].at("outcome") == "ok") {
+      if (chosen[number].timed && is_timed(runs[i]) && records[i].at("outcome") == "ok" &&
+          !records[i].contains("time")) {
         timed.push_back(runs[i]);
         places.push_back(i);
       }
@@ -74,6 +77,7 @@ void add_times(const std::vector<PaperFigure>& chosen, const std::vector<RunSpec
   time_runs(timed, TimingRules{}, ReferenceCache(), progress, [&](std::size_t index, const RunTimes& times) {
     Json& record = records[places[index]];
     record = with_time(record, times);
+    unfinished.append(timed[index], record);
   });
 }
 
@@ -96,25 +100,37 @@ int figures(const FigureOptions& options) {
 
   std::vector<RunSpec> runs;
   std::vector<std::size_t> ends;  // of the runs of each figure
-  double work = 0.0;
   for (const PaperFigure& figure : chosen) {
-    for (RunSpec& run : figure_runs(figure, options.short_form)) {
-      work += expected_work(run);
-      runs.push_back(std::move(run));
-    }
+    for (RunSpec& run : figure_runs(figure, options.short_form)) runs.push_back(std::move(run));
     ends.push_back(runs.size());
   }
+  UnfinishedRecords unfinished(out, runs);
   std::vector<Json> records(runs.size());
-  std::size_t failures = 0;
+  std::vector<RunSpec> missing;
+  std::vector<std::size_t> places;
+  double work = 0.0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (auto record = unfinished.record(runs[i])) {
+      records[i] = *std::move(record);
+      continue;
+    }
+    missing.push_back(runs[i]);
+    places.push_back(i);
+    work += expected_work(runs[i]);
+  }
+  if (missing.size() < runs.size())
+    fmt::print(stderr, "figures: goes on where it was stopped, {} of {} runs are there\n",
+               runs.size() - missing.size(), runs.size());
   {
     Progress progress("figures", work);
-    execute(runs, options.jobs, ReferenceCache(), progress, [&](std::size_t index, const Json& record) {
-      if (record.at("outcome") != "ok") ++failures;
-      records[index] = record;
+    execute(missing, options.jobs, ReferenceCache(), progress, [&](std::size_t index, const Json& record) {
+      unfinished.append(missing[index], record);
+      records[places[index]] = record;
     });
   }
-
-  if (!options.short_form) add_times(chosen, runs, ends, records);
+  if (!options.short_form) add_times(chosen, runs, ends, records, unfinished);
+  const auto failures = std::count_if(records.begin(), records.end(),
+                                      [](const Json& record) { return record.at("outcome") != "ok"; });
 
   const std::vector<RecordRow> all_rows = record_rows(records);
   std::map<std::string, std::vector<RecordRow>> by_study;
@@ -150,6 +166,7 @@ int figures(const FigureOptions& options) {
   const Verification verification = verify(by_study, note);
   write_whole(out / "verification.md", verification.markdown);
   if (!verification.csv.empty()) write_whole(out / "verification.csv", verification.csv);
+  unfinished.remove();
   fmt::print("verification: {} of {} claims confirmed, {}\n", verification.confirmed, verification.claims,
              (out / "verification.md").string());
   if (failures > 0)
@@ -180,6 +197,7 @@ void add_figures(CLI::App& app, int& status) {
   command->footer(
       "Examples:\n  liebench figures                          all, into reproduced/\n"
       "  liebench figures --only figure3 --out /tmp/f3\n"
+      "A job killed half-way goes on where it stopped when the same command is given again.\n"
       "Exit status 1: a claim of the paper was not confirmed (not with --short); see verification.md.");
   command->callback([options, &status] { status = figures(*options); });
 }

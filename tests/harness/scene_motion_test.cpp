@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "groups/flattened.h"
 #include "integrators/bliedf2nd.h"
 #include "problems/scene_examples.h"
 #include "tests/harness/scene_runs.h"
@@ -46,6 +47,11 @@ TEST(SceneMotion, TheFourBarIsItsPendulumThroughEveryFlatPlace) {
     return std::hypot(x, y);
   };
   const auto k = [](int steps) { return MethodOptions(BLieDF2nd::Options{.k = steps}); };
+  if (detail::sanitized) {
+    // Six minutes there for what follows: the same code in more runs.
+    EXPECT_LE(error(k(3), 1e-3), 1e-2);
+    return;
+  }
   expect_order(error(k(2), 1e-3), error(k(2), 5e-4), 2.0);
   expect_order(error(k(3), 1e-3), error(k(3), 5e-4), 3.0);
   // 1e-9 m are what round-off leaves where the joints hardly hold.
