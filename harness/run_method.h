@@ -16,7 +16,7 @@
 
 #include "harness/monitor.h"
 #include "harness/run.h"
-#include "integrators/any_stepper.h"
+#include "integrators/settled_stepper.h"
 #include "integrators/starting_values.h"
 
 // The inside of the seam: everything from here down is a template on system and scalar.
@@ -201,18 +201,7 @@ class TimedStepper final : public TimedRun {
 };
 
 // The options of the method that the request names, of the list of all.
-inline MethodOptions options_of(const RunRequest& request) {
-  std::optional<MethodOptions> options;
-  [&]<class... Methods>(IntegratorList<Methods...>) {
-    const auto attempt = [&]<class Method>(IntegratorList<Method>) {
-      if (Method::name == request.integrator) options = Method::options(request.options);
-    };
-    (attempt(IntegratorList<Methods>{}), ...);
-  }(Integrators{});
-  if (!options)
-    throw std::logic_error(fmt::format("integrator \"{}\" is not in the list", request.integrator));
-  return *options;
-}
+MethodOptions options_of(const RunRequest& request);
 
 }  // namespace detail
 

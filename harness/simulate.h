@@ -9,7 +9,7 @@
 
 #include "harness/run.h"
 #include "harness/scene_assembly.h"
-#include "integrators/any_stepper.h"
+#include "integrators/settled_stepper.h"
 #include "integrators/option.h"
 
 // One trajectory of a scene, from its own initial values.

@@ -2,7 +2,7 @@
 
 #include "groups/counted.h"
 #include "groups/extended.h"
-#include "integrators/any_stepper.h"
+#include "integrators/settled_stepper.h"
 
 // The steppers of everything that is not in double.
 

@@ -5,7 +5,6 @@
 #include <memory>
 #include <string>
 #include <type_traits>
-#include <variant>
 #include <vector>
 
 #include "groups/flattened.h"
@@ -60,7 +59,7 @@ void expect_heavy_top(BodyKind kind) {
   const auto scene = run_time_scene<Extended>(heavy_top_scene(kind, p));
   const Extended h(0x1p-9);
   for (const MethodOptions& options : some_methods()) {
-    if (std::holds_alternative<GeneralizedAlpha::Options>(options)) continue;
+    if (options.of<GeneralizedAlpha>() != nullptr) continue;
     const auto expected = any_stepper(options, top);
     const auto actual = any_stepper(options, scene);
     std::vector<SolutionPoint<Top>> points(std::size_t(expected->starting_points()));
