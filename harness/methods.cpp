@@ -32,9 +32,11 @@ std::vector<MethodInfo> all_infos() {
   return list;
 }
 
-bool fits(const MethodInfo& method, bool constrained, std::string_view formulation) {
+bool fits(const MethodInfo& method, std::string_view problem, bool constrained,
+          std::string_view formulation) {
   return fits(method.fits, constrained) &&
-         (method.outside == nullptr || method.outside->formulation == formulation);
+         (method.outside == nullptr ||
+          (problem == "heavy_top" && method.outside->formulation == formulation));
 }
 
 }  // namespace
@@ -76,11 +78,12 @@ std::string fits_text(const MethodInfo& method) {
   return "problems with constraints";
 }
 
-std::string misfit(const MethodInfo& method, bool constrained, std::string_view formulation) {
-  if (fits(method, constrained, formulation)) return {};
+std::string misfit(const MethodInfo& method, std::string_view problem, bool constrained,
+                   std::string_view formulation) {
+  if (fits(method, problem, constrained, formulation)) return {};
   std::vector<std::string> fitting;
   for (const MethodInfo& other : methods())
-    if (fits(other, constrained, formulation)) fitting.emplace_back(other.name);
+    if (fits(other, problem, constrained, formulation)) fitting.emplace_back(other.name);
   const std::string_view difference = method.outside != nullptr ? "is another"
                                       : constrained             ? "has constraints"
                                                                 : "has none";

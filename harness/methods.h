@@ -33,9 +33,10 @@ const MethodInfo* find_method(std::string_view name);
 
 bool has_option(const MethodInfo& method, std::string_view option);
 
-// Why a method does not integrate a system with or without constraints in this formulation, and which do; empty where
+// Why a method does not integrate a problem with or without constraints in this formulation, and which do; empty where
 // it does.
-std::string misfit(const MethodInfo& method, bool constrained, std::string_view formulation);
+std::string misfit(const MethodInfo& method, std::string_view problem, bool constrained,
+                   std::string_view formulation);
 // Names of the methods that choose their steps, as a message lists them; solvers from outside do not run on scenes.
 std::string methods_that_choose_steps(bool with_outside);
 // What it integrates: "problems without constraints".

@@ -38,7 +38,7 @@ struct FormulationInfo {
 struct ParameterInfo {
   std::string_view name;
   std::string_view unit;
-  std::string_view shape;  // "positive number", "3 numbers", ...
+  std::string shape;  // "positive number", "3 numbers", ...
   Json fallback;
   std::string_view meaning;
 };
@@ -62,9 +62,12 @@ struct ProblemInfo {
   // Whether the functions of the problem agree with each other in a formulation (problems/check_system.h). Throws InputError where it
   // is too large for that.
   std::function<SystemCheck(std::string_view formulation, const Json& parameters)> check;
+  // Of a problem whose equations of motion may change without a new numerical version: a text that changes with them, part of the
+  // keys of records. Empty for others.
+  std::function<std::string(const Json& parameters)> fingerprint{};
 };
 
-// Every problem: the explicit list.
+// Every problem: the heavy top, and the systems of problems/list.h.
 const std::vector<ProblemInfo>& problems();
 
 // The heavy top of Bruels & Cardona on SO(3) and on R^3 x SO(3).

@@ -205,8 +205,8 @@ void require_scopes(const std::vector<ProblemChoice>& problems, const std::vecto
 void require_fits(const std::vector<ProblemChoice>& problems, const std::vector<MethodChoice>& methods) {
   for (const MethodChoice& choice : methods) {
     for (const ProblemChoice& problem : problems)
-      if (const std::string reason =
-              misfit(*choice.method, problem.formulation->constraints > 0, problem.formulation->name);
+      if (const std::string reason = misfit(*choice.method, problem.problem->name,
+                                            problem.formulation->constraints > 0, problem.formulation->name);
           !reason.empty())
         throw InputError(choice.entry["name"].pointer(), fmt::format("{} in {}: {}", problem.problem->name,
                                                                      problem.formulation->name, reason));
@@ -344,6 +344,7 @@ Json RunSpec::canonical_input() const {
   j["problem"] = problem->name;
   j["formulation"] = formulation->name;
   j["parameters"] = parameters;
+  if (problem->fingerprint) j["fingerprint"] = problem->fingerprint(parameters);
   j["integrator"] = method->name;
   j["options"] = options_to_json(*method, request.options);
   j["start"] = name(request.start);

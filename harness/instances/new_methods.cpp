@@ -2,12 +2,14 @@
 
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 
 #include "harness/instances/heavy_top_steppers.h"
 #include "harness/instances/linear_oscillator_steppers.h"
 #include "harness/instances/scene_steppers.h"
 #include "harness/run_method.h"
 #include "integrators/any_stepper.h"
+#include "problems/list.h"
 
 // What of the runs knows the whole list of methods: the only file of these that a new method compiles again.
 
@@ -25,6 +27,16 @@ template StepperMaker<SmallScene> new_stepper;
 template StepperMaker<Scene> new_stepper;
 template StepperMaker<RunTimeSystem<Extended>> new_stepper;
 template StepperMaker<RunTimeSystem<Counted>> new_stepper;
+
+namespace {
+
+template <template <class> class... Systems>
+auto new_steppers(SystemList<Systems...>) {
+  return std::tuple{&new_stepper<Systems<double>>...};
+}
+[[gnu::used]] const auto of_listed_problems = new_steppers(ListedSystems{});
+
+}  // namespace
 
 namespace detail {
 

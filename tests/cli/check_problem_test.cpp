@@ -141,7 +141,7 @@ TEST_F(CheckProblemTest, WrongInputIsRefused) {
   };
   for (const Case& c : std::vector<Case>{
            {{"check-problem", "heavy_tp"},
-            "unknown problem \"heavy_tp\"; allowed: \"heavy_top\", or a scene"},
+            "unknown problem \"heavy_tp\"; allowed: \"heavy_top\" or \"orbiting_gyrostat\", or a scene"},
            {{"check-problem", "heavy_tp"}, "did you mean \"heavy_top\"?"},
            {{"check-problem", "nowhere.json"}, "nowhere.json"},
            {{"check-problem", "large.json"},
