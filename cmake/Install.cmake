@@ -24,6 +24,7 @@ install(
   FILES_MATCHING PATTERN "*.h"
   PATTERN problems/scenes EXCLUDE
   PATTERN harness/studies EXCLUDE
+  PATTERN integrators/sheets EXCLUDE
   PATTERN harness/cli EXCLUDE
   PATTERN harness/outside EXCLUDE)
 

@@ -14,4 +14,8 @@ std::vector<std::string_view> embedded_file_names();
 std::string_view embedded_scene(std::string_view name);
 std::vector<std::string_view> embedded_scene_names();
 
+// The same of the integrators' sheets in integrators/sheets.
+std::string_view embedded_sheet(std::string_view name);
+std::vector<std::string_view> embedded_sheet_names();
+
 }  // namespace liebench

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "harness/outside/outside_methods.h"
+#include "integrators/form.h"
 #include "integrators/list.h"
 #include "integrators/step_control.h"
 
@@ -22,13 +23,21 @@ std::vector<std::string> words(const OptionInfo& info) {
 template <class... Methods>
 std::vector<MethodInfo> infos(IntegratorList<Methods...>) {
   return {MethodInfo{Methods::name, Methods::summary, Methods::fits, chooses_steps<Methods>(),
-                     Methods::option_list, &Methods::title, &Methods::orders}...};
+                     Methods::option_list, &Methods::title, &Methods::orders, &is_symmetric<Methods>,
+                     &kept_constraints<Methods>}...};
 }
 
 std::vector<MethodInfo> all_infos() {
   std::vector<MethodInfo> list = infos(Integrators{});
   for (const OutsideMethod& each : outside_methods())
-    list.push_back({each.name, each.summary, each.fits, true, each.options, each.title, each.orders, &each});
+    list.push_back({.name = each.name,
+                    .summary = each.summary,
+                    .fits = each.fits,
+                    .chooses_steps = true,
+                    .options = each.options,
+                    .title = each.title,
+                    .orders = each.orders,
+                    .outside = &each});
   return list;
 }
 

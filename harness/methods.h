@@ -24,6 +24,9 @@ struct MethodInfo {
   std::span<const OptionInfo> options;
   std::string (*title)(const OptionValues&);  // "BLieDF2nd, k = 3"
   ConvergenceOrders (*orders)(const OptionValues&);
+  // Of a method of the list; integrators/fits.h.
+  bool (*symmetric)(const OptionValues&) = nullptr;
+  KeptConstraints (*kept)(const OptionValues&) = nullptr;
   const OutsideMethod* outside = nullptr;  // of a solver from outside
 };
 

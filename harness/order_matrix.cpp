@@ -75,7 +75,7 @@ int expected_order(const CurveIdentity& identity, const Quantity& quantity) {
   if (quantity.component != "lambda") return quantity.component == "q" ? orders.q : orders.v;
   const bool reduced = quantity.norm == "max_absolute" && options.contains("modified_start") &&
                        options.at("modified_start") == false && !body_fixed(identity);
-  return reduced ? orders.lambda - 1 : orders.lambda;
+  return reduced ? std::max(0, orders.lambda - 1) : orders.lambda;
 }
 
 Judgement judge(const Curve& curve, const Quantity& quantity, int expected) {

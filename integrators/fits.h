@@ -1,5 +1,6 @@
 #pragma once
 
+#include "integrators/option.h"
 #include "problems/system.h"
 
 namespace liebench {
@@ -26,5 +27,21 @@ struct ConvergenceOrders {
 constexpr ConvergenceOrders same_order(int p) {
   return {p, p, p};
 }
+
+// Whether a one-step method declares that it is symmetric with these options: so many steps of -h lead back from where as many of h
+// have led, but for round-off, where the forces on v are gyroscopic ones. It is not where it says nothing.
+template <class Method>
+bool is_symmetric(const OptionValues& values) {
+  if constexpr (requires { Method::symmetric(values); })
+    return Method::symmetric(values);
+  else
+    return false;
+}
+
+// Which constraints hold to round-off at the end of every step.
+struct KeptConstraints {
+  bool position;  // Phi(t, q) = 0
+  bool velocity;  // B(q) v + Phi_t = 0, the hidden one
+};
 
 }  // namespace liebench

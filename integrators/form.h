@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "integrators/fits.h"
 #include "integrators/option.h"
 #include "problems/system.h"
 
@@ -24,6 +25,16 @@ inline constexpr OptionInfo form_option{.name = "form",
                                         .choices = {"index3", "stabilized_index2"},
                                         .scope = OptionScope::constrained,
                                         .meaning = "formulation of the constrained equations"};
+
+// What a method keeps of the constraints with these options: what its form says, or the method where it has none.
+template <class Method>
+KeptConstraints kept_constraints(const OptionValues& values) {
+  if constexpr (requires { Method::kept_constraints(values); })
+    return Method::kept_constraints(values);
+  else
+    return {.position = true,
+            .velocity = form_of(values.choice_or(form_option.name, "")) == Form::stabilized_index2};
+}
 
 inline constexpr OptionInfo modified_start_option{
     .name = "modified_start",

@@ -58,6 +58,7 @@ struct Gauss {
   static ConvergenceOrders orders(const OptionValues& values) {
     return same_order(2 * values.integer("stages"));
   }
+  static bool symmetric(const OptionValues&) { return true; }
 
   struct Options {
     int stages = 4;

@@ -64,6 +64,9 @@ struct HalfExplicit {
   static ConvergenceOrders orders(const OptionValues& values) {
     return with_tableau(options(values).tableau, [](auto chosen) { return chosen.orders; });
   }
+  static KeptConstraints kept_constraints(const OptionValues& values) {
+    return {.position = values.boolean("projection"), .velocity = true};
+  }
 
   struct Options {
     Tableau tableau = Tableau::herk4;

@@ -102,6 +102,7 @@ struct ImplicitMidpoint {
 
   static std::string title(const OptionValues&) { return "implicit midpoint"; }
   static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
+  static bool symmetric(const OptionValues&) { return true; }
 
   struct Options : SafeguardOptions {};
   static Options options(const OptionValues& values) { return {safeguard_options(values)}; }

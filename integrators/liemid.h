@@ -103,6 +103,7 @@ struct Liemid {
     return values.choice("variant") == "half_steps" ? "LIEMID, two half steps" : "LIEMID";
   }
   static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
+  static bool symmetric(const OptionValues&) { return true; }
 
   enum class Variant { one_step, half_steps };
   struct Options {

@@ -27,6 +27,7 @@ struct Newmark {
 
   static std::string title(const OptionValues&) { return "Newmark, beta = 1/4, gamma = 1/2"; }
   static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
+  static bool symmetric(const OptionValues&) { return true; }
 
   struct Options : SafeguardOptions {};
   static Options options(const OptionValues& values) { return {safeguard_options(values)}; }

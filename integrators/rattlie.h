@@ -127,6 +127,10 @@ struct Rattlie {
 
   static std::string title(const OptionValues&) { return "RATTLie"; }
   static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
+  static bool symmetric(const OptionValues&) { return true; }
+  static KeptConstraints kept_constraints(const OptionValues&) {
+    return {.position = true, .velocity = true};
+  }
 
   struct Options {};
   static Options options(const OptionValues&) { return {}; }

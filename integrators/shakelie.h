@@ -85,6 +85,9 @@ struct Shakelie {
 
   static std::string title(const OptionValues&) { return "SHAKELie"; }
   static ConvergenceOrders orders(const OptionValues&) { return same_order(2); }
+  static KeptConstraints kept_constraints(const OptionValues&) {
+    return {.position = true, .velocity = false};
+  }
 
   struct Options {};
   static Options options(const OptionValues&) { return {}; }

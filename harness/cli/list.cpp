@@ -10,6 +10,7 @@
 #include "harness/methods.h"
 #include "harness/problems.h"
 #include "harness/scene_reader.h"
+#include "harness/sheets.h"
 #include "harness/stability/case.h"
 #include "harness/strict_json.h"
 
@@ -79,6 +80,10 @@ void describe_method(const MethodInfo& method) {
                    ? fmt::format(", with \"start\": \"self\" {}", *info.self_start_fallback != 0.0)
                    : "",
                info.scope == OptionScope::everywhere ? "" : fmt::format("; only with {}", scope_text(info)));
+  if (method.outside == nullptr) {
+    const std::string declared = declarations_text(method);
+    fmt::print("\n{}{}{}", declared, declared.empty() ? "" : "\n\n", sheet_text(method));
+  }
   fmt::print(
       "\n"
       "In a study:\n  {{\"name\": \"{}\"",
@@ -151,6 +156,8 @@ void describe(const std::string& name) {
   std::vector<std::string> names{"record", "study", "scene", "stability"};
   if (std::find(names.begin(), names.end(), name) != names.end())
     return fmt::print("{}", embedded_file(name + ".schema.json"));
+  if (name == "integrators") return fmt::print("{}", integrators_page());
+  names.push_back("integrators");
   for (const MethodInfo& method : methods()) {
     if (method.name == name) return describe_method(method);
     names.emplace_back(method.name);
@@ -184,12 +191,15 @@ void add_list(CLI::App& app, int&) {
 }
 
 void add_describe(CLI::App& app, int&) {
-  CLI::App* command =
-      app.add_subcommand("describe",
-                         "Say what an integrator, a problem, an effect or a hard case is and what it "
-                         "takes; record, study, scene, stability: the JSON schema");
+  CLI::App* command = app.add_subcommand(
+      "describe",
+      "Say what an integrator, a problem, an effect or a hard case is and what it "
+      "takes; integrators: a page with the sheet of each of them; record, study, scene, stability: the "
+      "JSON schema");
   auto name = std::make_shared<std::string>();
-  command->add_option("name", *name, "a name from `liebench list`, or record, study, scene or stability")
+  command
+      ->add_option("name", *name,
+                   "a name from `liebench list`, or integrators, record, study, scene or stability")
       ->required()
       ->type_name("NAME");
   command->footer("Example:\n  liebench describe heavy_top");

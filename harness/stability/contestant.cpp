@@ -39,7 +39,7 @@ std::optional<double> Contestant::tolerance() const {
 }
 
 std::string_view Contestant::own_form() const {
-  return is("shakelie") ? "index3" : "stabilized_index2";
+  return method->kept(options).velocity ? "stabilized_index2" : "index3";
 }
 
 bool Contestant::can_be_safeguarded() const {

@@ -30,7 +30,7 @@ struct Contestant {
   // Whether the method has the option `safeguard`, for it solves an equation in each step.
   bool can_be_safeguarded() const;
   // Of a method without the option "form": that whose constraints its steps fulfil. SHAKELie has Phi = 0 alone, RATTLie the hidden
-  // constraint too, half-explicit methods that one alone.
+  // constraint too, half-explicit methods that one alone: what they declare.
   std::string_view own_form() const;
   // rho_inf of generalized-alpha.
   std::optional<double> rho_inf() const;

@@ -91,6 +91,21 @@ TEST_F(OutputTest, OfDescribeIsAsExpected) {
                                     output({"describe", "spring_damper"}));
 }
 
+TEST_F(OutputTest, OfDescribeHasTheSheetOfEveryIntegratorThatListNames) {
+  int integrators = 0;
+  for (const std::string& line : lines_of(output({"list", "integrators"}))) {
+    const std::string name = line.substr(0, line.find(' '));
+    const std::string text = output({"describe", name});
+    EXPECT_TRUE(text.starts_with(name + ": ")) << text;
+    // Solvers from outside have their own manuals.
+    if (contains(line, "SUNDIALS")) continue;
+    for (const char* part : {"\nSource: ", "\nUse it: ", "\nNot: "})
+      EXPECT_TRUE(contains(text, part)) << text;
+    ++integrators;
+  }
+  EXPECT_GE(integrators, 18);
+}
+
 TEST_F(OutputTest, OfCheckProblemIsAsExpected) {
   // Which entry of a law that holds is the worst is round-off's choice: laws and how many numbers they looked at.
   std::string text;

@@ -52,7 +52,7 @@ void expect_no_allocation_of_any_method() {
   const HeavyTopParameters p = slow_top();
   const S system(p);
   const HeavyTopMotion motion(p, 0.2);
-  for (const MethodCase<S>& method : every_method<S>())
+  for (const MethodCase<S>& method : every_method_of_fixed_steps<S>())
     expect_no_allocation(system, *method.stepper(system), motion, 0.005, method.text());  // h |v| = 0.02
   for (const Form form : {Form::index3, Form::stabilized_index2})
     expect_no_allocation(system,

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/hanging_top.h"
 #include "tests/support/heavy_top_motion.h"
 #include "tests/support/heavy_top_samples.h"
-#include "tests/support/method_laws.h"
 #include "tests/support/small_systems.h"
 #include "tests/support/spinning_up.h"
 #include "tests/support/steppers.h"

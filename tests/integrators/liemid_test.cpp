@@ -14,7 +14,6 @@
 #include "problems/heavy_top.h"
 #include "tests/support/observed_order.h"
 #include "tests/support/steppers.h"
-#include "tests/support/time_reversal.h"
 #include "tests/support/verlet.h"
 
 namespace liebench::liemid_test {
@@ -29,10 +28,6 @@ TEST(Liemid, HasOrderTwo) {
     EXPECT_NEAR(order.q, 2, order_tolerance) << int(variant);
     EXPECT_NEAR(order.v, 2, order_tolerance) << int(variant);
   }
-}
-
-TEST(Liemid, ComesBackInReversedTime) {
-  for (const auto variant : variants) expect_time_reversal<Liemid, HeavyTopSO3<double>>({variant});
 }
 
 // Krysl's equations for rotations, by rotation matrices of Eigen and fixed points: exp(-h w / 2) P is turned back by

@@ -17,7 +17,7 @@
 #include "tests/support/steppers.h"
 
 // Laws of every integrator in every combination of its options on small systems. Those on formulations of the heavy top:
-// tests/support/method_laws.h.
+// tests/support/listed_methods.h.
 
 namespace liebench::method_laws_test {
 namespace {
@@ -37,7 +37,7 @@ template <class S>
 void expect_outcome(const S& system, Outcome expected, std::string_view but_of = "") {
   constexpr double h = 0.1;
   const auto points = straight_points(system, h);
-  const auto methods = every_method<S>();
+  const auto methods = every_method_of_fixed_steps<S>();
   for (const MethodCase<S>& method : methods) {
     if (method.method == but_of) continue;
     const auto stepper = method.stepper(system);
@@ -74,7 +74,7 @@ TEST(EveryMethod, FollowsARotationThatGrowsFasterUntilAStepTurnsByPi) {
   constexpr double h = 0.2;
   std::vector<SolutionPoint<S>> points;
   for (int j = 0; j < 8; ++j) points.push_back(spinning_up_point(j * h));
-  for (const MethodCase<S>& method : every_method<S>()) {
+  for (const MethodCase<S>& method : every_method_of_fixed_steps<S>()) {
     const auto stepper = method.stepper(system);
     ASSERT_EQ(stepper->start(h, std::span(points).first(std::size_t(stepper->starting_points()))).outcome,
               Outcome::ok);
@@ -205,7 +205,7 @@ TEST(EveryBdfMethod, IsTheClassicalOneBitForBitOnALinearSpace) {
                       S::Vector::Zero(),
                       {}});
   int compared = 0;
-  for (const MethodCase<S>& method : every_method<S>()) {
+  for (const MethodCase<S>& method : every_method_of_fixed_steps<S>()) {
     if (method.method != BLieDF2nd::name && method.method != FaltinsenBdf::name &&
         method.method != CentredBdf::name)
       continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -8,19 +9,23 @@
 #include <variant>
 #include <vector>
 
+#include "integrators/fits.h"
+#include "integrators/form.h"
 #include "integrators/list.h"
 #include "integrators/option.h"
 #include "integrators/step_control.h"
 #include "tests/support/steppers.h"
 
-// Every integrator of the program in every combination of its options, for laws that hold for all of them. A new method
-// joins by its line in integrators/list.h.
+// Every integrator of the program in every combination of its options, with what it declares of itself, for laws that hold
+// for all of them. A new method joins by its line in integrators/list.h.
 
 namespace liebench {
 
-// What a test tries of one option: all integers, all words, both booleans; of a real its ends and its default.
+// What a test tries of one option: all integers, all words, both booleans; of a real its ends and its default, of a tolerance
+// (whose ends are below round-off, and none at all) its default.
 inline std::vector<OptionValue> values_to_try(const OptionInfo& option) {
   std::vector<OptionValue> values;
+  if (option.name == tolerance_option.name) return {option.fallback};
   switch (option.kind) {
     case OptionKind::integer:
       for (int i = int(option.least); i <= int(option.most); ++i) values.emplace_back(i);
@@ -53,7 +58,16 @@ std::vector<OptionValues> option_combinations(bool constrained) {
       }
     all = std::move(longer);
   }
-  return all;
+  // What is there for the index-3 form alone is absent in another.
+  std::vector<OptionValues> different;
+  for (OptionValues values : all) {
+    if (values.choice_or(form_option.name, "index3") != "index3")
+      for (const OptionInfo& option : Method::option_list)
+        if (option.scope == OptionScope::index3) values.erase(option.name);
+    const auto same = [&](const OptionValues& other) { return other.all() == values.all(); };
+    if (std::none_of(different.begin(), different.end(), same)) different.push_back(values);
+  }
+  return different;
 }
 
 inline std::string to_text(const OptionValue& value) {
@@ -66,12 +80,16 @@ inline std::string to_text(const OptionValue& value) {
   return std::visit(Text{}, value);
 }
 
-// One method with one combination of options.
+// One method with one combination of options, and what it declares with them.
 template <MechanicalSystem S>
 struct MethodCase {
   std::string_view method;
   OptionValues options;
   std::function<std::unique_ptr<AnyStepper<S>>(const S&)> stepper;
+  ConvergenceOrders orders;
+  bool symmetric;
+  KeptConstraints kept;
+  bool chooses_steps;
 
   std::string text() const {
     std::string s(method);
@@ -80,15 +98,27 @@ struct MethodCase {
   }
 };
 
+// `stepper` makes the stepper of the method for a system.
+template <class Method, MechanicalSystem S>
+MethodCase<S> method_case(const OptionValues& values,
+                          std::function<std::unique_ptr<AnyStepper<S>>(const S&)> stepper) {
+  return {.method = Method::name,
+          .options = values,
+          .stepper = std::move(stepper),
+          .orders = Method::orders(values),
+          .symmetric = is_symmetric<Method>(values),
+          .kept = kept_constraints<Method>(values),
+          .chooses_steps = chooses_steps<Method>()};
+}
+
 template <class Method, MechanicalSystem S>
 std::vector<MethodCase<S>> cases_of() {
   std::vector<MethodCase<S>> cases;
-  // What chooses its steps has other laws.
-  if constexpr (may_fit<Method, S>() && !chooses_steps<Method>())
+  if constexpr (may_fit<Method, S>())
     for (const OptionValues& values : option_combinations<Method>(S::constraints > 0))
-      cases.push_back({Method::name, values, [options = Method::options(values)](const S& system) {
-                         return make_stepper<Method, S>(options, system);
-                       }});
+      cases.push_back(method_case<Method, S>(values, [options = Method::options(values)](const S& system) {
+        return make_stepper<Method, S>(options, system);
+      }));
   return cases;
 }
 
@@ -105,6 +135,14 @@ std::vector<MethodCase<S>> cases_of_all(IntegratorList<Methods...>) {
 template <MechanicalSystem S>
 std::vector<MethodCase<S>> every_method() {
   return cases_of_all<S>(Integrators{});
+}
+
+// Those that take the steps that they are told to.
+template <MechanicalSystem S>
+std::vector<MethodCase<S>> every_method_of_fixed_steps() {
+  std::vector<MethodCase<S>> methods = every_method<S>();
+  std::erase_if(methods, [](const MethodCase<S>& method) { return method.chooses_steps; });
+  return methods;
 }
 
 }  // namespace liebench
