@@ -47,7 +47,7 @@ inline constexpr double most_steps = 1e9;
 inline constexpr std::uint64_t most_chosen_steps = 10'000'000;
 
 // Version of the numerical code: part of every key, raised whenever a change alters results.
-inline constexpr int numerical_version = 4;
+inline constexpr int numerical_version = 5;
 
 // Throws InputError with the JSON pointer of the first thing that is wrong.
 Study read_study(const Json& study);
