@@ -301,7 +301,8 @@ const std::vector<PaperFigure>& paper_figures() {
        {"field_outside.json", "field_outside_constrained.json"}},
       {"verification",
        {"verification.json", "verification_own_start.json", "verification_unconstrained.json",
-        "verification_constrained.json", "verification_half_explicit.json"}}};
+        "verification_constrained.json", "verification_half_explicit.json", "verification_tolerance.json",
+        "verification_tolerance_constrained.json"}}};
   return list;
 }
 

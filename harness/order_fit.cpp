@@ -184,6 +184,15 @@ std::optional<double> floor_level(LogPoints points, std::size_t tail_size) {
   return level;
 }
 
+// Student's t for 68.27 %.
+double student(double freedom) {
+  // In double, not by way of long double, which valgrind does not have.
+  namespace policies = boost::math::policies;
+  using StudentsT =
+      boost::math::students_t_distribution<double, policies::policy<policies::promote_double<false>>>;
+  return boost::math::quantile(StudentsT(freedom), 0.5 + 0.6827 / 2);
+}
+
 std::optional<OrderEstimate> fit(LogPoints points, const Window& window) {
   const LogPoints used = points.subspan(window.first, window.count);
   // About the window's middle the two parameters are uncorrelated and the problem is well conditioned.
@@ -221,11 +230,6 @@ std::optional<OrderEstimate> fit(LogPoints points, const Window& window) {
   if (!converged) return std::nullopt;
 
   const auto freedom = static_cast<double>(window.on_law.size() - 2);
-  // In double, not by way of long double, which valgrind does not have.
-  namespace policies = boost::math::policies;
-  using StudentsT =
-      boost::math::students_t_distribution<double, policies::policy<policies::promote_double<false>>>;
-  const double student = boost::math::quantile(StudentsT(freedom), 0.5 + 0.6827 / 2);
 
   const auto slopes = secants(window.on_law);
   const bool monotone = std::ranges::is_sorted(slopes) || std::ranges::is_sorted(slopes, std::greater{});
@@ -233,7 +237,7 @@ std::optional<OrderEstimate> fit(LogPoints points, const Window& window) {
   OrderEstimate estimate;
   estimate.order = slope;
   estimate.constant = std::exp(offset - slope * x_middle);
-  estimate.fit_uncertainty = student * std::sqrt(weighted_squares / freedom * slope_variance);
+  estimate.fit_uncertainty = student(freedom) * std::sqrt(weighted_squares / freedom * slope_variance);
   estimate.end_slope = slopes.front();
   estimate.uncertainty = std::hypot(estimate.fit_uncertainty, estimate.end_slope - slope);
   estimate.h_min = used.front().h;
@@ -287,17 +291,9 @@ OrderFit without_window(LogPoints points) {
                   slopes_at_small_end(points), points.front().h));
 }
 
-}  // namespace
-
-std::string_view name(OrderOutcome outcome) {
-  constexpr std::array<std::string_view, 7> names{"estimated",   "too_few_points", "below_reference",
-                                                  "not_falling", "no_power_law",   "repeated_step_size",
-                                                  "fit_failed"};
-  return names.at(static_cast<std::size_t>(outcome));
-}
-
-OrderFit fit_order(std::span<const ErrorPoint> points, double reference_error) {
-  std::vector<LogPoint> usable;
+// Rule 1, by rising h: fills `usable`, or says why there are too few.
+std::optional<OrderFit> choose_points(std::span<const ErrorPoint> points, double reference_error,
+                                      std::vector<LogPoint>& usable) {
   std::size_t below_reference = 0;
   for (const ErrorPoint& point : points) {
     if (!(point.step_size > 0 && std::isfinite(point.step_size))) continue;
@@ -327,6 +323,41 @@ OrderFit fit_order(std::span<const ErrorPoint> points, double reference_error) {
     return absent(OrderOutcome::repeated_step_size,
                   fmt::format("two points have the step size {:.6g}", repeated->h));
   }
+  return std::nullopt;
+}
+
+// log e = log C + p log h by least squares, with Student's t times the standard deviation of p.
+struct Line {
+  double slope, offset, uncertainty;
+};
+Line line_through(LogPoints points) {
+  const auto n = double(points.size());
+  double x = 0, y = 0, xx = 0, xy = 0, rest = 0;
+  for (const LogPoint& p : points) {
+    x += p.x / n;
+    y += p.y / n;
+  }
+  for (const LogPoint& p : points) {
+    xx += (p.x - x) * (p.x - x);
+    xy += (p.x - x) * (p.y - y);
+  }
+  const double slope = xy / xx;
+  for (const LogPoint& p : points) rest += std::pow(p.y - y - slope * (p.x - x), 2);
+  return {slope, y - slope * x, student(n - 2) * std::sqrt(rest / (n - 2) / xx)};
+}
+
+}  // namespace
+
+std::string_view name(OrderOutcome outcome) {
+  constexpr std::array<std::string_view, 7> names{"estimated",   "too_few_points", "below_reference",
+                                                  "not_falling", "no_power_law",   "repeated_step_size",
+                                                  "fit_failed"};
+  return names.at(static_cast<std::size_t>(outcome));
+}
+
+OrderFit fit_order(std::span<const ErrorPoint> points, double reference_error) {
+  std::vector<LogPoint> usable;
+  if (auto none = choose_points(points, reference_error, usable)) return *none;
   usable = thinned(std::move(usable));
 
   WindowSlopes slopes(usable);
@@ -342,6 +373,30 @@ OrderFit fit_order(std::span<const ErrorPoint> points, double reference_error) {
     return result;
   }
   return without_window(usable);
+}
+
+OrderFit fit_scattered(std::span<const ErrorPoint> points, double reference_error) {
+  std::vector<LogPoint> usable;
+  if (auto none = choose_points(points, reference_error, usable)) return *none;
+  if (usable.size() < 5)
+    return absent(OrderOutcome::too_few_points,
+                  fmt::format("five points are needed of a curve that scatters: {} given", usable.size()));
+  const Line line = line_through(usable);
+  if (line.slope < least_slope)
+    return absent(OrderOutcome::not_falling,
+                  fmt::format("the error does not fall with the tolerance: the slope of {} points is {:.2f}",
+                              usable.size(), line.slope));
+  const Line end = line_through(LogPoints(usable).first(usable.size() / 2 + 1));
+  OrderEstimate estimate;
+  estimate.order = line.slope;
+  estimate.constant = std::exp(line.offset);
+  estimate.fit_uncertainty = line.uncertainty;
+  estimate.end_slope = end.slope;
+  estimate.uncertainty = std::hypot(line.uncertainty, end.slope - line.slope);
+  estimate.h_min = usable.front().h;
+  estimate.h_max = usable.back().h;
+  estimate.points = static_cast<int>(usable.size());
+  return {.outcome = OrderOutcome::estimated, .reason = {}, .estimate = estimate, .floor = {}};
 }
 
 }  // namespace liebench

@@ -98,4 +98,10 @@ struct OrderFit {
 // on round-off may stand in its place. Never throws on data: whatever is wrong with a curve is an outcome.
 OrderFit fit_order(std::span<const ErrorPoint> points, double reference_error = 0);
 
+// The power law through all points of a curve that scatters: that of a method that chooses its steps, whose safety factors and
+// changes of step make some per cent up to a half of its errors. Least squares of log e over log h, without a window; `uncertainty` as
+// above, with the slope of the half at small h in the place of the secant there. Rule 1 says which points count, and five are needed;
+// an error whose slope is below 1/2 does not fall.
+OrderFit fit_scattered(std::span<const ErrorPoint> points, double reference_error = 0);
+
 }  // namespace liebench

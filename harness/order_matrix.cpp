@@ -33,13 +33,37 @@ bool body_fixed(const CurveIdentity& identity) {
   return identity.formulation == "SE3" || identity.formulation == "S3|xR3" || identity.formulation == "UDQ";
 }
 
-std::string measured(const Judgement& judgement, int expected) {
+std::string measured(const Judgement& judgement, std::optional<double> expected) {
   std::string text = "does not fall";
   if (judgement.fit.estimate)
     text = fmt::format("{:.2f} ± {:.2f}", judgement.fit.estimate->order, judgement.fit.estimate->uncertainty);
   else if (judgement.fit.outcome != OrderOutcome::not_falling)
     text = "no order";
-  return judgement.confirmed ? text : fmt::format("**{}, expected {}**", text, expected);
+  if (!expected) return "(" + text + ")";
+  return judgement.confirmed ? text : fmt::format("**{}, expected {}**", text, *expected);
+}
+
+const MethodInfo& known_method(const CurveIdentity& identity) {
+  const MethodInfo* method = find_method(identity.integrator);
+  if (method == nullptr)
+    throw InputError(identity.integrator,
+                     "this program has no such integrator, and so no order to expect of it");
+  return *method;
+}
+
+// Of a method that raises its order from that of its first steps, with h_0 in proportion to tol^{1 / (first_steps + 1)}.
+std::optional<double> expected_by_tolerance(const ConvergenceOrders& orders, const CurveIdentity& identity,
+                                            const Quantity& quantity) {
+  const int p = quantity.component == "q" ? orders.q : quantity.component == "v" ? orders.v : orders.lambda;
+  if (orders.first_steps == 0 || body_fixed(identity) || quantity.component == "q") return p;
+  const double of_first_step = double(orders.estimate) / (orders.first_steps + 1);
+  const double of_first_errors = std::min(double(p), orders.first_steps * of_first_step);
+  const bool index3 = identity.form() == "index3", largest = quantity.norm == "max_absolute";
+  if (quantity.component == "v") return index3 && largest ? of_first_errors : p;
+  if (!index3) return largest ? of_first_errors : p;
+  // At the end it depends on how long ago a step changed.
+  if (!largest) return std::nullopt;
+  return (orders.first_steps - 1) * of_first_step;
 }
 
 const std::vector<std::pair<Quantity, std::string>>& quantities() {
@@ -59,13 +83,11 @@ std::string method_name(const CurveIdentity& identity) {
   return method->title(options_from_json(*method, *identity.options));
 }
 
-int expected_order(const CurveIdentity& identity, const Quantity& quantity) {
+std::optional<double> expected_order(const CurveIdentity& identity, const Quantity& quantity) {
   const Json& options = *identity.options;
-  const MethodInfo* method = find_method(identity.integrator);
-  if (method == nullptr)
-    throw InputError(identity.integrator,
-                     "this program has no such integrator, and so no order to expect of it");
-  const ConvergenceOrders orders = method->orders(options_from_json(*method, options));
+  const MethodInfo& method = known_method(identity);
+  const ConvergenceOrders orders = method.orders(options_from_json(method, options));
+  if (method.chooses_steps) return expected_by_tolerance(orders, identity, quantity);
   // Where the constraint of the top is a subalgebra these lose nothing (docs/theory.md, "Formulations"); HERK3 does, for its lambda is a
   // combination of several stages.
   const bool whole_in_subalgebra =
@@ -78,8 +100,37 @@ int expected_order(const CurveIdentity& identity, const Quantity& quantity) {
   return reduced ? std::max(0, orders.lambda - 1) : orders.lambda;
 }
 
-Judgement judge(const Curve& curve, const Quantity& quantity, int expected) {
-  Judgement judgement{.confirmed = false, .fit = fit_curve(curve, quantity)};
+namespace {
+
+// Against the step size; of a method that chooses its steps against the one that a tolerance asks for, tol^{1 / estimate}, which its
+// safety factors and its start keep out of; the window is of mean steps.
+OrderFit fit_of(const Curve& curve, const Quantity& quantity) {
+  const MethodInfo* method = curve.identity ? find_method(curve.identity->integrator) : nullptr;
+  if (method == nullptr || !method->chooses_steps) return fit_curve(curve, quantity);
+  const ConvergenceOrders orders = method->orders(options_from_json(*method, *curve.identity->options));
+  if (orders.estimate == 0) return fit_curve(curve, quantity);
+  std::vector<ErrorPoint> points;
+  double reference_error = 0.0;
+  for (const RecordRow* record : curve.records) {
+    const std::optional<double> error = error_of(*record, quantity);
+    const std::optional<double> tolerance = (*record)[record_number("options/tolerance")];
+    if (!error || !tolerance) continue;
+    points.push_back({std::pow(*tolerance, 1.0 / orders.estimate), *error});
+    reference_error =
+        std::max(reference_error, record->numbers[std::size_t(record_number("reference/error_estimate"))]);
+  }
+  OrderFit fit = fit_scattered(points, reference_error);
+  if (fit.estimate) {
+    fit.estimate->h_min = curve.records.back()->step_size();
+    fit.estimate->h_max = curve.records.front()->step_size();
+  }
+  return fit;
+}
+
+}  // namespace
+
+Judgement judge(const Curve& curve, const Quantity& quantity, double expected) {
+  Judgement judgement{.confirmed = false, .fit = fit_of(curve, quantity)};
   if (judgement.fit.estimate) {
     const OrderEstimate& e = *judgement.fit.estimate;
     const double allowed = std::min(widest_order_tolerance, std::max(order_tolerance, 2.0 * e.uncertainty));
@@ -96,7 +147,7 @@ std::vector<Column> order_matrix_columns() {
           {.header = "form"},
           {.header = "start"},
           {.header = "error"},
-          {.header = "expected", .kind = ColumnKind::integer, .alignment = Alignment::right},
+          {.header = "expected", .kind = ColumnKind::number, .alignment = Alignment::right},
           {.header = "measured", .kind = ColumnKind::number, .alignment = Alignment::right, .digits = 4},
           {.header = "uncertainty", .kind = ColumnKind::number, .alignment = Alignment::right, .digits = 2},
           {.header = "h_min", .unit = "s", .kind = ColumnKind::number, .alignment = Alignment::right},
@@ -132,24 +183,30 @@ OrderMatrix order_matrix(const std::vector<RecordRow>& records) {
     double h_min = 0.0, h_max = 0.0;
     for (const auto& [quantity, title] : quantities()) {
       if (!has_lambda && quantity.component == "lambda") continue;
-      const int expected = expected_order(id, quantity);
-      const Judgement judgement = judge(curve, quantity, expected);
-      ++matrix.entries;
-      matrix.confirmed += judgement.confirmed ? 1 : 0;
+      const std::optional<double> expected = expected_order(id, quantity);
+      const Judgement judgement = judge(curve, quantity, expected.value_or(0.0));
+      if (expected) {
+        ++matrix.entries;
+        matrix.confirmed += judgement.confirmed ? 1 : 0;
+      }
       line.push_back(measured(judgement, expected));
       Row row{formulation,
               method_name(id),
               form_name(id, has_lambda),
               id.start,
               describe(quantity),
-              std::int64_t(expected),
               Cell{},
               Cell{},
               Cell{},
               Cell{},
               Cell{},
-              judgement.confirmed,
+              Cell{},
+              Cell{},
               judgement.fit.reason};
+      if (expected) {
+        row[5] = *expected;
+        row[11] = judgement.confirmed;
+      }
       if (judgement.fit.estimate) {
         const OrderEstimate& e = *judgement.fit.estimate;
         row[6] = e.order;

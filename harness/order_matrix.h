@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,9 @@ namespace liebench {
 // Of a curve's method: "BLieDF2nd, k = 3, L_k implicit".
 std::string method_name(const CurveIdentity& identity);
 
-// The order that theory gives for the error `quantity` of a curve; docs/theory.md, "Expected orders".
-int expected_order(const CurveIdentity& identity, const Quantity& quantity);
+// The order that theory gives for the error `quantity` of a curve; docs/theory.md, "Expected orders", and, of a method that chooses its
+// steps, "Errors by tolerance". Empty where it gives none.
+std::optional<double> expected_order(const CurveIdentity& identity, const Quantity& quantity);
 
 // A fit against an expectation. An expected order of 0 is met by an error that does not fall.
 struct Judgement {
@@ -28,12 +30,12 @@ struct Judgement {
 inline constexpr double order_tolerance = 0.1;
 inline constexpr double widest_order_tolerance = 0.2;
 
-Judgement judge(const Curve& curve, const Quantity& quantity, int expected);
+Judgement judge(const Curve& curve, const Quantity& quantity, double expected);
 
 struct OrderMatrix {
   std::string markdown;   // a table for each formulation
   std::vector<Row> rows;  // of order_matrix_columns()
-  int entries = 0;
+  int entries = 0;        // of which theory gives an order
   int confirmed = 0;
 };
 

@@ -206,7 +206,18 @@ std::string matrices(const std::map<std::string, std::vector<RecordRow>>& record
        "and Radau IIA "
        "lose one order in lambda, Radau IIA of index 3 two orders in v and three in lambda, but for HERK4, "
        "HEDOP5 and Radau IIA where velocities are body-fixed (SE3, S3|xR3, UDQ): "
-       "there the constraint is a subalgebra, and nothing is lost"}};
+       "there the constraint is a subalgebra, and nothing is lost"},
+      {"verification_step_control", "Steps by a tolerance",
+       "Errors against tol^{1/(k+1)} of BLieDF2nd and tol^{1/5} of the pair of Dormand and Prince, the step "
+       "that "
+       "a tolerance asks for, "
+       "by least squares over all tolerances: order k, and 5. Where velocities are inertial the first steps "
+       "of "
+       "BLieDF2nd, of order 1 "
+       "and in proportion to tol^{1/2}, have the largest errors: (k + 1) / 2 in lambda, in the index-3 form "
+       "in v, "
+       "and none at all in its lambda, which "
+       "at the end depends on how long ago a step changed (in brackets, no entry)"}};
   std::string text;
   Table csv("", order_matrix_columns());
   for (const MatrixSection& section : sections) {

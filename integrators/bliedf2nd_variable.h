@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <limits>
 #include <numbers>
@@ -15,6 +16,7 @@
 #include "integrators/affine_closure.h"
 #include "integrators/audit.h"
 #include "integrators/basic_stepper.h"
+#include "integrators/bdf_stability.h"
 #include "integrators/fits.h"
 #include "integrators/form.h"
 #include "integrators/history.h"
@@ -69,7 +71,8 @@ struct BLieDF2ndVariable {
     return "BLieDF2nd, variable step, order up to " + std::to_string(values.integer("max_order"));
   }
   static ConvergenceOrders orders(const OptionValues& values) {
-    return same_order(values.integer("max_order"));
+    const int k = values.integer("max_order");
+    return {.q = k, .v = k, .lambda = k, .estimate = k + 1, .first_steps = 1};
   }
 
   struct Options {
@@ -105,7 +108,7 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
   int starting_points() const { return 1; }
 
   Stepper(const S& system, const Options& options)
-      : Base(system, false),
+      : Base(system, true),
         tolerance_(options.tolerance),
         max_order_(options.max_order),
         control_(options.max_order),
@@ -114,6 +117,7 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
         increment_(zero_),
         lag_(zero_),
         correction_(zero_),
+        error_of_v_(zero_),
         mean_accelerations_(most_past, zero_),
         increment_changes_(most_past - 1, zero_),
         lambda_slopes_(most_past, zero_multipliers(system)) {}
@@ -129,6 +133,7 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
     velocity_ = first.v;
     lambda_ = first.lambda;
     control_ = OrderControl(max_order_);
+    if (length == T(0.0)) return {};
     const double h = first_step(to_double(length), first.acceleration);
     if (!(std::abs(h) > 0.0)) return {Outcome::non_finite};
     h_ = dividing(h);
@@ -178,8 +183,11 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
       const StepResult result = Base::advance(closure, change, scaled_lambda, point);
       double factor = 0.0;
       if (result.outcome == Outcome::ok) {
-        const OrderControl::Errors errors = errors_of(point, change);
+        OrderControl::Errors errors = errors_of(point, change);
         if (errors.same <= 1.0) {
+          if (order_ >= a_stable_order && control_.would_raise(errors) &&
+              unstable_though_damped(order_ + 1, OrderControl::most * to_double(h_)))
+            errors.higher = OrderControl::Errors{}.higher;
           if (last) t_ = t_end_;
           remember(point, change, lambda);
           lengthen(control_.accept(errors));
@@ -189,7 +197,8 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
         q_ = q;
         set(velocity_, v);
         set(lambda_, lambda);
-        factor = control_.reject(errors);
+        factor =
+            control_.reject(errors, order_ > a_stable_order && unstable_though_damped(order_, to_double(h_)));
       } else {
         // A shorter step may do, if there is one to speak of.
         if (std::abs(to_double(h_)) < shortest_) return result;
@@ -211,6 +220,8 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
   using PerSlope = std::array<Value, Differences::most>;
 
   static constexpr int most_past = int(Differences::most) - 1;
+  // The highest one.
+  static constexpr int a_stable_order = 2;
   static constexpr double shortest_part = 1e-12;
   static constexpr double longest_turn = 0.9 * std::numbers::pi;
 
@@ -401,6 +412,7 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
       if constexpr (S::constraints != 0 && !Base::stabilized)
         if (multiplier_size(system()) != 0)
           of_v = newton_.tangential_part(q_, of_v, T(gamma_[0] * gamma_[0]));
+      if (order == order_) set(error_of_v_, of_v);
       return scaled_error<S>(of_q, of_v, v, tolerance_);
     };
     OrderControl::Errors errors{.same = error(order_)};
@@ -410,6 +422,39 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
     if (order_ < max_order_ && accepted && control_.may_change() && increment_changes_.size() >= order_)
       errors.higher = error(order_ + 1);
     return errors;
+  }
+
+  // Orders above 2 are not stable for motions that are hardly damped: their error estimate then is the amplitude that the instability
+  // keeps up, in steps that this amplitude bounds, and neither asks for the order that would let it die out (docs/theory.md, "Stiff
+  // motions that are hardly damped"). The motion that an error is made of goes along it: x'' + 2 sigma x' + omega^2 x = 0 with
+  //
+  //   omega^2 = e . K e / e . M e,   2 sigma = e . D e / e . M e,   K e and D e by differences of forces
+  //
+  // Whether order k lets it grow in steps h, though by its own damping it would die out in what is left of the interval; for then
+  // order 2 pays, whose steps are shorter until it has.
+  [[gnu::noinline, gnu::cold]] bool unstable_though_damped(int k, double h) {
+    const auto group = group_of(system());
+    const Velocity<S>& e = error_of_v_;
+    const double size = to_double(largest_entry(e));
+    if (!(size > 0.0)) return false;
+    const T difference(1e-6 / size);
+    Velocity<S> along;
+    set(along, difference * e);
+    const Configuration<S> q = group.compose(q_, group.exp(along));
+    const Velocity<S> force = system().force(t_, q_, velocity_);
+    Velocity<S> of_stiffness = system().force(t_, q, velocity_);
+    if constexpr (S::constraints != 0)
+      if (multiplier_size(system()) != 0)
+        of_stiffness += system().constraint_force(q, lambda_) - system().constraint_force(q_, lambda_);
+    const Velocity<S> faster = velocity_ + along;
+    const Velocity<S> of_damping = system().force(t_, q_, faster);
+    const double mass = to_double(T(e.dot(system().momentum(q_, e))));
+    const double square = to_double(T(e.dot(of_stiffness - force) / difference)) / mass;
+    const double sigma = 0.5 * to_double(T(e.dot(of_damping - force) / difference)) / mass;
+    const double left = std::abs(to_double(T(t_end_ - t_)));
+    // Of its amplitude e^-5 would be left. Without a frequency it is no oscillation.
+    if (!(sigma * left > 5.0 && square > sigma * sigma)) return false;
+    return !bdf_is_stable(k, std::abs(h) * std::complex(-sigma, std::sqrt(square - sigma * sigma)));
   }
 
   void remember(const typename Base::Point& point, const Velocity<S>& change, const Multipliers<S>& lambda) {
@@ -447,6 +492,7 @@ class BLieDF2ndVariable::Stepper : public BasicStepper<S, form, Audit> {
   Velocity<S> increment_;                                  // Dq_{n-1}
   Velocity<S> lag_;                                        // Dq_{n-1} - v_n
   Velocity<S> correction_;                                 // of the step, (S_0 [v, v'] + S_1 [v, v'']) / 12
+  Velocity<S> error_of_v_;                                 // of the last step, by its own order
   History<Velocity<S>, most_past> mean_accelerations_;     // (v_n - v_{n-1}) / h_2, ...
   History<Velocity<S>, most_past - 1> increment_changes_;  // Dq_{n-1} - Dq_{n-2}, ...
   History<Multipliers<S>, most_past> lambda_slopes_;       // (lambda_n - lambda_{n-1}) / h_2, ...

@@ -22,6 +22,10 @@ constexpr bool may_fit() {
 // has the transient phase.
 struct ConvergenceOrders {
   int q, v, lambda;
+  // Of a method that chooses its steps: the power of h that its error estimate has, and, where it raises its order, that of its first
+  // steps; docs/theory.md, "Errors by tolerance".
+  int estimate = 0;
+  int first_steps = 0;
 };
 
 constexpr ConvergenceOrders same_order(int p) {

@@ -22,7 +22,7 @@ class OrderControl {
     double same = lower;
     double higher = lower;
   };
-  static constexpr double worthwhile = 1.2;
+  static constexpr double worthwhile = 1.2, most = 2.0;
 
   explicit OrderControl(int max_order) : max_order_(max_order) {}
 
@@ -35,23 +35,25 @@ class OrderControl {
     rejections_ = 0;
     ++alike_;
     if (alike_ <= order_) return 1.0;
-    const double lower = factor(errors.lower, 1.3, order_ - 1), same = factor(errors.same, 1.2, order_);
-    const double higher = order_ < max_order_ ? factor(errors.higher, 1.4, order_ + 1) : 0.0;
-    const double best = std::max({lower, same, higher});
-    if (best < worthwhile) return 1.0;
-    if (same < best) {
-      order_ += higher == best ? 1 : -1;
-      alike_ = 0;
-    }
-    return std::min(best, most);
+    const Wish wish = wish_for(errors);
+    if (wish.factor < worthwhile) return 1.0;
+    if (wish.order != order_) alike_ = 0;
+    order_ = wish.order;
+    return std::min(wish.factor, most);
+  }
+  // Whether it would take a higher order.
+  bool would_raise(const Errors& errors) const {
+    const Wish wish = wish_for(errors);
+    return alike_ >= order_ && wish.order > order_ && wish.factor >= worthwhile;
   }
 
-  // Of a step whose error is too large.
-  double reject(const Errors& errors) {
+  // Of a step whose error is too large; `unstable`: by an instability of its order, which a lower one has not.
+  double reject(const Errors& errors, bool unstable = false) {
     if (falls_back()) return least;
     const double lower = factor(errors.lower, 1.3, order_ - 1), same = factor(errors.same, 1.2, order_);
-    if (lower > same) --order_;
-    return std::clamp(std::max(lower, same), least, 0.9);
+    const bool falls = order_ > 1 && (unstable || lower > same);
+    if (falls) --order_;
+    return std::clamp(falls ? lower : same, least, 0.9);
   }
   // Of a step that failed.
   double fail() {
@@ -62,7 +64,7 @@ class OrderControl {
   void step_changed() { alike_ = 0; }
 
  private:
-  static constexpr double least = 0.2, most = 2.0;
+  static constexpr double least = 0.2;
 
   // What happens again and again needs a formula with less of the past.
   bool falls_back() {
@@ -70,6 +72,17 @@ class OrderControl {
     if (++rejections_ < 3) return false;
     order_ = 1;
     return true;
+  }
+  // What is to be had after a step that is accepted: the largest factor, and its order.
+  struct Wish {
+    double factor;
+    int order;
+  };
+  Wish wish_for(const Errors& errors) const {
+    const double lower = factor(errors.lower, 1.3, order_ - 1), same = factor(errors.same, 1.2, order_);
+    const double higher = order_ < max_order_ ? factor(errors.higher, 1.4, order_ + 1) : 0.0;
+    const double best = std::max({lower, same, higher});
+    return {best, same == best ? order_ : higher == best ? order_ + 1 : order_ - 1};
   }
   static double factor(double error, double bias, int order) {
     if (order < 1 || !std::isfinite(error)) return 0.0;

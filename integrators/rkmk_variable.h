@@ -33,7 +33,9 @@ struct RkmkVariable {
   static constexpr Fits fits = Fits::without_constraints;
   static constexpr auto option_list = std::to_array<OptionInfo>({tolerance_option});
   static std::string title(const OptionValues&) { return "RKMK dopri5, variable step"; }
-  static ConvergenceOrders orders(const OptionValues&) { return same_order(5); }
+  static ConvergenceOrders orders(const OptionValues&) {
+    return {.q = 5, .v = 5, .lambda = 5, .estimate = 5};
+  }
 
   struct Options {
     double tolerance = 1e-6;
@@ -67,6 +69,7 @@ class RkmkVariable::Stepper : public BasicExplicitStepper<S, Audit> {
     Base::begin(length, points[0]);
     t_end_ = t_ + length;
     control_ = StepControl(5);
+    if (length == T(0.0)) return {};
     const Outcome outcome = Base::acceleration(t_, q_, velocity_, acceleration_);
     if (outcome != Outcome::ok) return {outcome};
     h_ = first_step(length);

@@ -27,10 +27,10 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 // Of the program itself: solvers from outside are listed where they are.
-Names listed(bool with_step_control = true) {
+Names listed() {
   Names names;
   for (const MethodInfo& method : methods())
-    if (!method.outside && (with_step_control || !method.chooses_steps)) names.emplace(method.name);
+    if (!method.outside) names.emplace(method.name);
   return names;
 }
 
@@ -47,7 +47,6 @@ TEST(MethodList, HasEveryMethodThatAHeaderDefines) {
   EXPECT_EQ(defined, listed()) << "a method is in integrators/ and not in integrators/list.h";
 }
 
-// A method that chooses its steps has no order in h.
 TEST(MethodList, IsWholeInTheVerification) {
   Names verified;
   for (const PaperFigure& figure : paper_figures())
@@ -55,7 +54,7 @@ TEST(MethodList, IsWholeInTheVerification) {
       for (const std::string_view file : figure.studies)
         for (const RunSpec& run : read_study(parse_json(embedded_file(file), std::string(file))).runs)
           verified.emplace(run.method->name);
-  EXPECT_EQ(verified, listed(false)) << "harness/studies/verification_*.json";
+  EXPECT_EQ(verified, listed()) << "harness/studies/verification_*.json";
 }
 
 TEST(MethodList, IsWholeInTheStudyOfTheField) {

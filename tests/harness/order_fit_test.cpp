@@ -350,5 +350,43 @@ TEST(OrderOutcome, HasAName) {
   EXPECT_EQ(name(OrderOutcome::fit_failed), "fit_failed");
 }
 
+// e = h^3 times factors between 1 and 1.5 that follow no law, from 1e-4 on by 10^{1/8}.
+std::vector<ErrorPoint> scattered(std::size_t count, double level = 0.0) {
+  std::vector<ErrorPoint> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double h = 1e-4 * std::pow(10.0, double(i) / 8.0);
+    const double factor = 1.0 + 0.5 * std::abs(std::sin(double(i * i)));
+    points.push_back({h, std::pow(h, 3.0) * factor + level});
+  }
+  return points;
+}
+
+TEST(FitScattered, FindsTheOrderOfACloudThatFollowsNoSinglePowerLaw) {
+  const std::vector<ErrorPoint> points = scattered(17);
+  ASSERT_FALSE(fit_order(points).estimate && fit_order(points).estimate->points > 12);
+  const OrderFit fit = fit_scattered(points);
+  ASSERT_TRUE(fit.estimate);
+  EXPECT_NEAR(fit.estimate->order, 3.0, 2.0 * fit.estimate->uncertainty);
+  EXPECT_LE(fit.estimate->uncertainty, 0.1);
+  EXPECT_EQ(fit.estimate->points, 17);
+}
+
+TEST(FitScattered, KnowsAnUncertaintyOfASlopeThatMoves) {
+  // Order 3 above and 2 below: the middle is an estimate of neither.
+  std::vector<ErrorPoint> points;
+  for (const ErrorPoint& p : scattered(17))
+    points.push_back({p.step_size, p.error + 1e-3 * p.step_size * p.step_size});
+  const OrderFit fit = fit_scattered(points);
+  ASSERT_TRUE(fit.estimate);
+  EXPECT_LT(fit.estimate->order, 2.8);
+  EXPECT_GE(fit.estimate->uncertainty, 0.2);
+}
+
+TEST(FitScattered, SaysWhatDoesNotFallAndAsksForFivePoints) {
+  EXPECT_EQ(fit_scattered(scattered(17, 1.0)).outcome, OrderOutcome::not_falling);
+  EXPECT_EQ(fit_scattered(scattered(4)).outcome, OrderOutcome::too_few_points);
+  EXPECT_EQ(fit_scattered(scattered(17), 1.0).outcome, OrderOutcome::below_reference);
+}
+
 }  // namespace
 }  // namespace liebench

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/harness/sample_records.h"
@@ -11,7 +12,10 @@ namespace {
 
 CurveIdentity identity(const char* formulation, const Json& options) {
   return {.formulation = formulation,
-          .integrator = options.contains("rho_inf") ? "generalized_alpha" : "bliedf2nd",
+          .integrator = options.contains("rho_inf")     ? "generalized_alpha"
+                        : options.contains("max_order") ? "bliedf2nd_variable"
+                        : options.empty()               ? "rkmk_variable"
+                                                        : "bliedf2nd",
           .options = SharedJson(options)};
 }
 Json bdf(int k, const char* form, bool modified) {
@@ -21,7 +25,7 @@ Json bdf(int k, const char* form, bool modified) {
   return options;
 }
 const Quantity lambda_max{"lambda", "max_absolute"}, lambda_end{"lambda", "end_relative"},
-    q_max{"q", "max_absolute"};
+    q_max{"q", "max_absolute"}, v_max{"v", "max_absolute"}, v_end{"v", "end_relative"};
 
 TEST(ExpectedOrder, IsThatOfTheMethod) {
   for (int k = 1; k <= 6; ++k) {
@@ -41,6 +45,28 @@ TEST(ExpectedOrder, OfLambdaIsReducedFromExactVelocitiesInTheInertialFrameOnly) 
   EXPECT_EQ(expected_order(identity("R3xSO3", bdf(3, "index3", true)), lambda_max), 3);
   for (const char* body_fixed : {"SE3", "S3|xR3", "UDQ"})
     EXPECT_EQ(expected_order(identity(body_fixed, bdf(3, "index3", false)), lambda_max), 3) << body_fixed;
+}
+
+TEST(ExpectedOrder, ByToleranceIsThatOfTheFirstStepsWhereTheirErrorsAreTheLargest) {
+  for (int k = 1; k <= 4; ++k) {
+    const double first = 0.5 * (k + 1);
+    Json options{{"max_order", k}};
+    EXPECT_EQ(expected_order(identity("SO3", options), v_max), k);
+    options["form"] = "stabilized_index2";
+    EXPECT_EQ(expected_order(identity("R3xSO3", options), v_max), k);
+    EXPECT_EQ(expected_order(identity("R3xSO3", options), lambda_end), k);
+    EXPECT_EQ(expected_order(identity("R3xSO3", options), lambda_max), std::min<double>(k, first));
+    EXPECT_EQ(expected_order(identity("SE3", options), lambda_max), k);
+    options["form"] = "index3";
+    EXPECT_EQ(expected_order(identity("R3xS3", options), q_max), k);
+    EXPECT_EQ(expected_order(identity("R3xS3", options), v_end), k);
+    EXPECT_EQ(expected_order(identity("R3xS3", options), v_max), std::min<double>(k, first));
+    EXPECT_EQ(expected_order(identity("R3xS3", options), lambda_max), 0.0);
+    EXPECT_EQ(expected_order(identity("R3xS3", options), lambda_end), std::nullopt);
+    for (const char* body_fixed : {"SE3", "S3|xR3", "UDQ"})
+      EXPECT_EQ(expected_order(identity(body_fixed, options), lambda_max), k) << body_fixed;
+  }
+  EXPECT_EQ(expected_order(identity("SO3", Json::object()), v_max), 5);
 }
 
 // Records of one curve whose errors are h^order.

@@ -58,6 +58,9 @@ void expect_no_allocation_of_any_method() {
     expect_no_allocation(system,
                          *make_stepper<BLieDF2ndVariable, S>({.tolerance = 1e-8, .form = form}, system),
                          motion, 1.0, "bliedf2nd_variable");
+  if constexpr (may_fit<RkmkVariable, S>())
+    expect_no_allocation(system, *make_stepper<RkmkVariable, S>({.tolerance = 1e-13}, system), motion, 3.0,
+                         "rkmk_variable");
 }
 
 // Those of the program, where it runs and where it times. What is not in double is vectors of run-time size, which allocate.

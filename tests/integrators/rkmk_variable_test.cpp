@@ -149,5 +149,16 @@ TEST(RkmkVariable, ReportsForcesThatAreNoNumbers) {
   EXPECT_EQ(stepper->start(0.1, points).outcome, Outcome::non_finite);
 }
 
+TEST(RkmkVariable, EndsAtOnceAfterAnIntervalOfNoLength) {
+  const HeavyTopParameters p = slow_top();
+  const SolutionPoint<S> first = HeavyTopMotion(p, 0.2).point(S(p), Extended(0.1));
+  const auto stepper = make_stepper<RkmkVariable, S>({}, S(p));
+  EXPECT_EQ(stepper->start(0.0, std::array{first}).outcome, Outcome::ok);
+  EXPECT_TRUE(stepper->finished());
+  EXPECT_EQ(stepper->time(), 0.1);
+  EXPECT_EQ(stepper->configuration(), first.q);
+  EXPECT_EQ(stepper->velocity(), first.v);
+}
+
 }  // namespace
 }  // namespace liebench::rkmk_variable_test
