@@ -9,8 +9,8 @@
 
 #include "harness/run.h"
 #include "harness/scene_assembly.h"
-#include "integrators/settled_stepper.h"
 #include "integrators/option.h"
+#include "integrators/settled_stepper.h"
 
 // One trajectory of a scene, from its own initial values.
 
