@@ -143,16 +143,6 @@ SceneRunEnd follow_own_steps(const S& system, const SceneRun& run, AnyStepper<S>
     return end;
   };
   const double length = run.step_size * double(run.steps), direction = std::copysign(1.0, length);
-  if (length == 0.0) {
-    // It is its starting point, and no method is asked for a step.
-    if (const StepResult found = make_points(system, run, length, std::span(points));
-        found.outcome != Outcome::ok)
-      return fail(found);
-    const SolutionPoint<S>& p = points[0];
-    if (run.watch) watcher.look(0, 0.0, p.q, p.v, p.lambda, true);
-    end.finite = p.q.allFinite() && p.v.allFinite() && p.lambda.allFinite();
-    return end;
-  }
   if (const StepResult start = begin(system, run, length, stepper, std::span(points));
       start.outcome != Outcome::ok)
     return fail(start);

@@ -162,23 +162,6 @@ Finding examine_own_steps(const Contestant& method, const std::string& form, dou
                   std::isfinite(stable) ? fmt::format(" and stability up to |z| = {:.2g} ask for", stable)
                                         : std::string(" asks for"),
                   predicted);
-  // Of k = 3 an error grows by 1 + theta^4 / 4 a step on the imaginary axis, which a damping of ratio theta takes back up to here.
-  const double damped_ratio = -mu.real() / std::abs(mu), sector = std::cos(73.35 * std::numbers::pi / 180.0);
-  if (std::isinf(stable) && damping > 0.0 && damped_ratio < sector) {
-    finding.at_worst = Grade::failed;
-    finding.reason += fmt::format(
-        "; but mu is outside the 73 degrees of k = 4 and the 86 of k = 3, which keep their steps below |z| = "
-        "{:.2g} or so when "
-        "nothing is left to follow: k = 2 would not, but is not chosen",
-        std::cbrt(4.0 * damped_ratio));
-  }
-  // docs/stability.md, "The safeguard": of a body that no joint holds nothing else is as large as the rounding of its torque.
-  if (std::isinf(stable) && form.empty() && damping > 0.0 && stiffness >= 1e6) {
-    finding.at_worst = Grade::failed;
-    finding.reason +=
-        "; but once it rests, an iteration without the safeguard takes the rounding of the torque, K eps, "
-        "for unsolved, and steps are made shorter";
-  }
   if (finding.grade == Grade::failed) return finding;
   finding.amount = double(end.reached) / predicted;
   const double left = std::sqrt(energy / (0.5 * stiffness * start * start));
