@@ -153,16 +153,13 @@ std::shared_ptr<const PreparedProblem> prepare(const ListedSystem& listed, const
   const ReferenceKey key{
       std::string(listed.name), reference_version,
       fmt::format("{}\nduration {}\nfingerprint {}", parameters.dump(), duration, fingerprint(system))};
-  const auto build = [&] {
-    return IntegratedReference(system, duration, {.separation = [&](const Vector& q, const Vector& p) {
-                                 return instance->separation(q, p);
-                               }});
-  };
+  IntegratedReference::Options options;
+  options.separation = [&](const Vector& q, const Vector& p) { return instance->separation(q, p); };
   std::optional<IntegratedReference> reference;
   if (const auto payload = cache.load(key, message))
     reference = IntegratedReference::restored(system, duration, *payload);
   if (!reference) {
-    reference = build();
+    reference.emplace(system, duration, options);
     cache.store(key, reference->payload(), message);
   }
   return std::make_shared<PreparedListed>(std::move(instance), std::move(*reference));

@@ -143,9 +143,9 @@ TEST(ListedProblem, HasAReferenceThatKeepsItsEnergyAndComesBackFromItsBytes) {
   const auto instance = listed.make(defaults(listed));
   const System system = instance->extended();
   const double duration = 2000.0;
-  const IntegratedReference reference(system, duration, {.separation = [&](const Vector& q, const Vector& p) {
-                                        return instance->separation(q, p);
-                                      }});
+  IntegratedReference::Options options;
+  options.separation = [&](const Vector& q, const Vector& p) { return instance->separation(q, p); };
+  const IntegratedReference reference(system, duration, options);
   EXPECT_LE(reference.error_estimate(), 1e-17);
   EXPECT_EQ(reference.agreement_time(), duration);
   const Vector v0 = system.initial_velocity();
