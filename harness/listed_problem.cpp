@@ -11,7 +11,7 @@ namespace liebench {
 
 namespace {
 
-using Vector = RunTimeSystem<Extended>::Vector;
+using ExtendedVector = RunTimeSystem<Extended>::Vector;
 
 std::string range_text(const NumberRange& range) {
   const bool from = std::isfinite(range.least), to = std::isfinite(range.most);
@@ -85,7 +85,7 @@ Json complete(const ListedSystem& system, const JsonView& view) {
 std::string samples(const RunTimeSystem<Extended>& system) {
   constexpr int points = 4;
   std::string text;
-  const auto take = [&](const Vector& values) {
+  const auto take = [&](const ExtendedVector& values) {
     double largest = 0.0;
     for (const Extended& x : values) largest = std::max(largest, std::abs(to_double(x)));
     for (const Extended& x : values) {
@@ -96,11 +96,11 @@ std::string samples(const RunTimeSystem<Extended>& system) {
   };
   std::mt19937 engine{1};
   const auto beside = [&](double size) {
-    Vector v(velocity_size(system));
+    ExtendedVector v(velocity_size(system));
     for (Extended& x : v) x = Extended(size * (double(engine()) / 2147483648.0 - 1.0));
     return v;
   };
-  Vector q = system.initial_configuration(), v = system.initial_velocity();
+  ExtendedVector q = system.initial_configuration(), v = system.initial_velocity();
   const double speed = to_double(Extended(v.norm()));
   for (int k = 0; k < points; ++k) {
     const Extended t = Extended(0.1) * double(k);
@@ -108,16 +108,17 @@ std::string samples(const RunTimeSystem<Extended>& system) {
       q = system.group().compose(q, system.group().exp(beside(0.25)));
       v = system.initial_velocity() + beside(speed > 0.0 ? speed : 1.0);
     }
-    const Vector momentum = system.momentum(q, v);
-    for (const Vector& values : {q, v, momentum, system.force(t, q, v)}) take(values);
+    const ExtendedVector momentum = system.momentum(q, v);
+    for (const ExtendedVector& values : {q, v, momentum, system.force(t, q, v)}) take(values);
     // The energy beside what it may be the small difference of.
-    Vector energy(2);
+    ExtendedVector energy(2);
     energy << system.energy(q, v), v.dot(momentum);
     take(energy);
     if (system.multipliers() == 0) continue;
-    const Vector ones = Vector::Constant(system.multipliers(), Extended(1.0));
-    for (const Vector& values : {system.constraint(t, q), system.constraint_rate(t, q, v),
-                                 system.constraint_curvature(t, q, v), system.constraint_force(q, ones)})
+    const ExtendedVector ones = ExtendedVector::Constant(system.multipliers(), Extended(1.0));
+    for (const ExtendedVector& values :
+         {system.constraint(t, q), system.constraint_rate(t, q, v), system.constraint_curvature(t, q, v),
+          system.constraint_force(q, ones)})
       take(values);
   }
   return text;
@@ -153,16 +154,15 @@ std::shared_ptr<const PreparedProblem> prepare(const ListedSystem& listed, const
   const ReferenceKey key{
       std::string(listed.name), reference_version,
       fmt::format("{}\nduration {}\nfingerprint {}", parameters.dump(), duration, fingerprint(system))};
-  const auto build = [&] {
-    return IntegratedReference(system, duration, {.separation = [&](const Vector& q, const Vector& p) {
-                                 return instance->separation(q, p);
-                               }});
+  IntegratedReference::Options options;
+  options.separation = [&](const ExtendedVector& q, const ExtendedVector& p) {
+    return instance->separation(q, p);
   };
   std::optional<IntegratedReference> reference;
   if (const auto payload = cache.load(key, message))
     reference = IntegratedReference::restored(system, duration, *payload);
   if (!reference) {
-    reference = build();
+    reference.emplace(system, duration, options);
     cache.store(key, reference->payload(), message);
   }
   return std::make_shared<PreparedListed>(std::move(instance), std::move(*reference));

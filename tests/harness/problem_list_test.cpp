@@ -7,9 +7,11 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <regex>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "harness/embedded.h"
@@ -19,13 +21,14 @@
 #include "harness/progress.h"
 #include "harness/study.h"
 #include "integrators/consistent_projection.h"
+#include "integrators/erased_system.h"
 #include "problems/list.h"
 #include "tests/harness/json_schema.h"
 #include "tests/support/run_program.h"
 
 // What is listed (problems/list.h) is tested, and what is there is listed.
 
-namespace liebench {
+namespace liebench::problem_list_test {
 namespace {
 
 using System = RunTimeSystem<Extended>;
@@ -143,9 +146,9 @@ TEST(ListedProblem, HasAReferenceThatKeepsItsEnergyAndComesBackFromItsBytes) {
   const auto instance = listed.make(defaults(listed));
   const System system = instance->extended();
   const double duration = 2000.0;
-  const IntegratedReference reference(system, duration, {.separation = [&](const Vector& q, const Vector& p) {
-                                        return instance->separation(q, p);
-                                      }});
+  IntegratedReference::Options options;
+  options.separation = [&](const Vector& q, const Vector& p) { return instance->separation(q, p); };
+  const IntegratedReference reference(system, duration, options);
   EXPECT_LE(reference.error_estimate(), 1e-17);
   EXPECT_EQ(reference.agreement_time(), duration);
   const Vector v0 = system.initial_velocity();
@@ -267,4 +270,4 @@ TEST(ListedProblem, IsNotForSolversFromOutside) {
 }
 
 }  // namespace
-}  // namespace liebench
+}  // namespace liebench::problem_list_test
