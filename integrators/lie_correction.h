@@ -23,7 +23,7 @@
 //
 // Explicit: a, b, c and, for k = 5, 6, v from v_n, ..., v_{n-k+1}; for k = 3, 4 the formulas of eq. (22). In the index-3
 // form the constraint fixes Dq, and v_{n+1} = sum gamma_i Dq_{n+1-i} - h^2 L_k(v_n, ...) is an explicit recursion in v: it is
-// stable for h |v| up to 3.60, 3.08, 0.255, 0.110 for k = 3, 4, 5, 6 only (docs/theory.md).
+// stable for h |v| up to 3.60, 3.08, 0.259, 0.112 for k = 3, 4, 5, 6 only (docs/theory.md).
 // Implicit ("BLieDF-I"): v_{n+1} itself, a, b, c by backward differences from v_{n+1}, ..., v_{n+1-k}; no such bound.
 
 namespace liebench {

@@ -28,7 +28,7 @@
 // Every listed method is checked by tests/support/listed_methods.h, wrong ones, planted, by
 // tests/integrators/wrong_methods_test.cpp.
 //
-// Step sizes: an explicit L_6 is stable in the index-3 form for h |v| < 0.110 only (integrators/lie_correction.h), and so all
+// Step sizes: an explicit L_6 is stable in the index-3 form for h |v| < 0.112 only (integrators/lie_correction.h), and so all
 // methods run with less.
 
 namespace liebench {
