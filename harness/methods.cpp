@@ -32,9 +32,11 @@ std::vector<MethodInfo> all_infos() {
   return list;
 }
 
-bool fits(const MethodInfo& method, bool constrained, std::string_view formulation) {
-  return fits(method.fits, constrained) &&
-         (method.outside == nullptr || method.outside->formulation == formulation);
+bool fits(const MethodInfo& method, bool constrained, std::string_view formulation, bool with_outside) {
+  if (!fits(method.fits, constrained)) return false;
+  if (method.outside == nullptr) return true;
+  return with_outside &&
+         (method.outside->formulation == formulation || (method.outside->scenes && formulation == "scene"));
 }
 
 }  // namespace
@@ -64,7 +66,8 @@ std::string methods_that_choose_steps(bool with_outside) {
 
 std::string fits_text(const MethodInfo& method) {
   if (method.outside != nullptr)
-    return fmt::format("the heavy top in the formulation \"{}\" alone", method.outside->formulation);
+    return fmt::format("the heavy top in the formulation \"{}\"{}", method.outside->formulation,
+                       method.outside->scenes ? " and scenes without joints" : " alone");
   switch (method.fits) {
     case Fits::every_system:
       return "every problem";
@@ -76,14 +79,21 @@ std::string fits_text(const MethodInfo& method) {
   return "problems with constraints";
 }
 
-std::string misfit(const MethodInfo& method, bool constrained, std::string_view formulation) {
-  if (fits(method, constrained, formulation)) return {};
+std::string misfit(const MethodInfo& method, bool constrained, std::string_view formulation,
+                   bool with_outside) {
+  if (fits(method, constrained, formulation, with_outside)) return {};
   std::vector<std::string> fitting;
   for (const MethodInfo& other : methods())
-    if (fits(other, constrained, formulation)) fitting.emplace_back(other.name);
-  const std::string_view difference = method.outside != nullptr ? "is another"
-                                      : constrained             ? "has constraints"
-                                                                : "has none";
+    if (fits(other, constrained, formulation, with_outside)) fitting.emplace_back(other.name);
+  if (method.outside != nullptr && !with_outside)
+    return fmt::format("{} runs in studies alone (liebench run). What fits here: {}", method.name,
+                       quoted_list(fitting));
+  const bool scene_with_joints =
+      method.outside != nullptr && method.outside->scenes && formulation == "scene";
+  const std::string_view difference = scene_with_joints           ? "has joints"
+                                      : method.outside != nullptr ? "is another"
+                                      : constrained               ? "has constraints"
+                                                                  : "has none";
   return fmt::format("{} integrates {}; this one {}. What fits it: {}", method.name, fits_text(method),
                      difference, quoted_list(fitting));
 }

@@ -34,9 +34,10 @@ const MethodInfo* find_method(std::string_view name);
 bool has_option(const MethodInfo& method, std::string_view option);
 
 // Why a method does not integrate a system with or without constraints in this formulation, and which do; empty where
-// it does.
-std::string misfit(const MethodInfo& method, bool constrained, std::string_view formulation);
-// Names of the methods that choose their steps, as a message lists them; solvers from outside do not run on scenes.
+// it does. Of scenes the formulation is "scene". Solvers from outside run in studies alone: elsewhere none of them fits.
+std::string misfit(const MethodInfo& method, bool constrained, std::string_view formulation,
+                   bool with_outside = true);
+// Names of the methods that choose their steps, as a message lists them.
 std::string methods_that_choose_steps(bool with_outside);
 // What it integrates: "problems without constraints".
 std::string fits_text(const MethodInfo& method);

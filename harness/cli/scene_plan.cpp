@@ -26,7 +26,7 @@ const MethodInfo& method_of(const std::string& integrator, bool constrained) {
   if (method == nullptr)
     throw InputError("--integrator", fmt::format("\"{}\" is not an integrator; allowed: {}{}", integrator,
                                                  quoted_list(names), suggestion(integrator, names)));
-  if (const std::string reason = misfit(*method, constrained, "scene"); !reason.empty())
+  if (const std::string reason = misfit(*method, constrained, "scene", false); !reason.empty())
     throw InputError("--integrator", reason);
   return *method;
 }
