@@ -87,7 +87,8 @@ const std::vector<Shown>& shown() {
       {"cvode_bdf", {}, "CVODE BDF", "cb", 5, 0, true},
       {"cvode_adams", {}, "CVODE Adams", "ca", 5, 1, true},
       {"arkode_erk", {}, "ARKODE ERK", "ae", 5, 2, true},
-      {"ida", {}, "IDA", "ida", 5, 3, true}};
+      {"ida", {}, "IDA", "ida", 5, 3, true},
+      {"arkode_dirk", {}, "ARKODE DIRK", "ad", 5, 4, true, true}};
   return list;
 }
 

@@ -298,7 +298,7 @@ const std::vector<PaperFigure>& paper_figures() {
        {"field_unconstrained.json", "field_constrained.json", "field_tolerance.json",
         "field_tolerance_constrained.json", "field_mount.json", "field_mount_tolerance.json"},
        true,
-       {"field_outside.json", "field_outside_constrained.json"}},
+       {"field_outside.json", "field_outside_constrained.json", "field_outside_mount.json"}},
       {"verification",
        {"verification.json", "verification_own_start.json", "verification_unconstrained.json",
         "verification_constrained.json", "verification_half_explicit.json", "verification_tolerance.json",

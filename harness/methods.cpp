@@ -43,9 +43,11 @@ std::vector<MethodInfo> all_infos() {
 
 bool fits(const MethodInfo& method, std::string_view problem, bool constrained,
           std::string_view formulation) {
-  return fits(method.fits, constrained) &&
-         (method.outside == nullptr ||
-          (problem == "heavy_top" && method.outside->formulation == formulation));
+  if (!fits(method.fits, constrained)) return false;
+  if (method.outside == nullptr) return true;
+  if (problem.empty()) return false;
+  return (problem == "heavy_top" && method.outside->formulation == formulation) ||
+         (method.outside->scenes && formulation == "scene");
 }
 
 }  // namespace
@@ -75,7 +77,8 @@ std::string methods_that_choose_steps(bool with_outside) {
 
 std::string fits_text(const MethodInfo& method) {
   if (method.outside != nullptr)
-    return fmt::format("the heavy top in the formulation \"{}\" alone", method.outside->formulation);
+    return fmt::format("the heavy top in the formulation \"{}\"{}", method.outside->formulation,
+                       method.outside->scenes ? " and scenes without joints" : " alone");
   switch (method.fits) {
     case Fits::every_system:
       return "every problem";
@@ -93,9 +96,15 @@ std::string misfit(const MethodInfo& method, std::string_view problem, bool cons
   std::vector<std::string> fitting;
   for (const MethodInfo& other : methods())
     if (fits(other, problem, constrained, formulation)) fitting.emplace_back(other.name);
-  const std::string_view difference = method.outside != nullptr ? "is another"
-                                      : constrained             ? "has constraints"
-                                                                : "has none";
+  if (method.outside != nullptr && problem.empty())
+    return fmt::format("{} runs in studies alone (liebench run). What fits here: {}", method.name,
+                       quoted_list(fitting));
+  const bool scene_with_joints =
+      method.outside != nullptr && method.outside->scenes && formulation == "scene";
+  const std::string_view difference = scene_with_joints           ? "has joints"
+                                      : method.outside != nullptr ? "is another"
+                                      : constrained               ? "has constraints"
+                                                                  : "has none";
   return fmt::format("{} integrates {}; this one {}. What fits it: {}", method.name, fits_text(method),
                      difference, quoted_list(fitting));
 }

@@ -37,10 +37,11 @@ const MethodInfo* find_method(std::string_view name);
 bool has_option(const MethodInfo& method, std::string_view option);
 
 // Why a method does not integrate a problem with or without constraints in this formulation, and which do; empty where
-// it does.
+// it does. Of scenes the formulation is "scene". Solvers from outside run in studies alone: elsewhere, where the problem has no name,
+// none of them fits.
 std::string misfit(const MethodInfo& method, std::string_view problem, bool constrained,
                    std::string_view formulation);
-// Names of the methods that choose their steps, as a message lists them; solvers from outside do not run on scenes.
+// Names of the methods that choose their steps, as a message lists them.
 std::string methods_that_choose_steps(bool with_outside);
 // What it integrates: "problems without constraints".
 std::string fits_text(const MethodInfo& method);

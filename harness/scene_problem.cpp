@@ -12,6 +12,7 @@
 
 #include "harness/errors.h"
 #include "harness/instances/run_time_scenes.h"
+#include "harness/outside/outside_methods.h"
 #include "harness/problem_checks.h"
 #include "harness/references/scene_reference.h"
 #include "harness/run_method.h"
@@ -162,10 +163,22 @@ class PreparedScene final : public PreparedProblem {
     return result;
   }
 
+  RunResult compared(const RunRequest& request, const OutsideMethod& outside) const {
+    using Monitor = SceneMonitor<double>;
+    Monitor monitor(scene_, reference_, detail::drift_stride(request));
+    const auto observe = [&](const detail::ObservedStep& step, const Monitor::Vector& q,
+                             const Monitor::Vector& v) { monitor.observe(step, q, v, Monitor::Vector(0)); };
+    RunResult result = outside.runs.run_scene(request, scene_, observe);
+    if (result.outcome == Outcome::ok) monitor.report(result);
+    return result;
+  }
+
  public:
   PreparedScene(const AssembledScene& scene, double duration) : scene_(scene), reference_(scene, duration) {}
 
   RunResult run(std::string_view, Precision precision, const RunRequest& request) const override {
+    if (const OutsideMethod* outside = find_outside_method(request.integrator))
+      return compared(request, *outside);
     RunResult result = precision == Precision::extended
                            ? compared<Extended>(request, run_time_system<Extended>())
                            : counted(request);
@@ -179,6 +192,8 @@ class PreparedScene final : public PreparedProblem {
     return result;
   }
   std::unique_ptr<TimedRun> timed(std::string_view, const RunRequest& request) const override {
+    if (const OutsideMethod* outside = find_outside_method(request.integrator))
+      return outside->runs.timed_scene(request, scene_);
     return with_scene(scene_, [&](const auto& system) -> std::unique_ptr<TimedRun> {
       using S = std::remove_cvref_t<decltype(system)>;
       return timed_run(request, system, exact<S>());

@@ -10,11 +10,16 @@ namespace {
 constexpr FailureFlags flags{ARK_CONV_FAILURE, ARK_LSETUP_FAIL, ARK_LSOLVE_FAIL, ARK_RHSFUNC_FAIL,
                              ARK_UNREC_RHSFUNC_ERR};
 
-// The quaternion is normalised where it is read, and nowhere else: its length has no effect.
-class ArkodeErk final : public QuaternionSolver {
+// Quaternions are normalised where they are read, and nowhere else: their length has no effect.
+template <class Equations>
+class ArkodeErk final : public QuaternionSolver<Equations> {
+  using Base = QuaternionSolver<Equations>;
+  using Base::back_to_start, Base::context_, Base::derivative, Base::duration_, Base::equations_,
+      Base::error_, Base::step_by, Base::y_;
+
  public:
-  ArkodeErk(const OptionValues& options, const HeavyTopParameters& parameters, double duration)
-      : QuaternionSolver(parameters, duration),
+  ArkodeErk(const OptionValues& options, const typename Equations::Data& data, double duration)
+      : Base(data, duration),
         memory_(require(ERKStepCreate(derivative, 0.0, y_.get(), context_.get()), "ERKStepCreate")) {
     const double tolerance = options.real("tolerance");
     require(ERKStepSetErrHandlerFn(memory_.get(), LastError::handler, &error_), "ERKStepSetErrHandlerFn");
@@ -45,10 +50,15 @@ class ArkodeErk final : public QuaternionSolver {
 };
 
 // As ArkodeErk; the stages by Newton's method.
-class ArkodeDirk final : public QuaternionSolver {
+template <class Equations>
+class ArkodeDirk final : public QuaternionSolver<Equations> {
+  using Base = QuaternionSolver<Equations>;
+  using Base::back_to_start, Base::context_, Base::derivative, Base::duration_, Base::equations_,
+      Base::error_, Base::step_by, Base::y_;
+
  public:
-  ArkodeDirk(const OptionValues& options, const HeavyTopParameters& parameters, double duration)
-      : QuaternionSolver(parameters, duration),
+  ArkodeDirk(const OptionValues& options, const typename Equations::Data& data, double duration)
+      : Base(data, duration),
         linear_(context_, y_),
         memory_(require(ARKStepCreate(nullptr, derivative, 0.0, y_.get(), context_.get()), "ARKStepCreate")) {
     const double tolerance = options.real("tolerance");
@@ -58,7 +68,7 @@ class ArkodeDirk final : public QuaternionSolver {
     require(ARKStepSetOrder(memory_.get(), options.integer("order")), "ARKStepSetOrder");
     require(ARKStepSetLinearSolver(memory_.get(), linear_.solver.get(), linear_.matrix.get()),
             "ARKStepSetLinearSolver");
-    require(ARKStepSetJacFn(memory_.get(), jacobian), "ARKStepSetJacFn");
+    require(ARKStepSetJacFn(memory_.get(), Base::jacobian), "ARKStepSetJacFn");
     require(ARKStepSetStopTime(memory_.get(), duration_), "ARKStepSetStopTime");
   }
 

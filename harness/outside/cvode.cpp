@@ -2,6 +2,8 @@
 #include <sundials/sundials_config.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include <iterator>
+
 #include "harness/outside/stepping_solver.h"
 
 namespace liebench {
@@ -26,8 +28,10 @@ struct FixedPointSolver {
 };
 
 // CVODE with `Algebra` for the equations of its steps, which outlives its memory.
-template <class Algebra>
-class Cvode : public QuaternionSolver {
+template <class Equations, class Algebra>
+class Cvode : public QuaternionSolver<Equations> {
+  using Base = QuaternionSolver<Equations>;
+
  public:
   void restart() {
     back_to_start();
@@ -40,8 +44,11 @@ class Cvode : public QuaternionSolver {
   }
 
  protected:
-  Cvode(int family, const OptionValues& options, const HeavyTopParameters& parameters, double duration)
-      : QuaternionSolver(parameters, duration),
+  using Base::back_to_start, Base::context_, Base::derivative, Base::duration_, Base::equations_,
+      Base::error_, Base::step_by, Base::y_;
+
+  Cvode(int family, const OptionValues& options, const typename Equations::Data& data, double duration)
+      : Base(data, duration),
         algebra_(context_, y_),
         memory_(require(CVodeCreate(family, context_.get()), "CVodeCreate")) {
     const double tolerance = options.real("tolerance");
@@ -65,20 +72,25 @@ class Cvode : public QuaternionSolver {
   OwnedMemory<CVodeFree> memory_;
 };
 
-// BDF with Newton's method. After every step the quaternion is normalised, and the estimate of its error loses the part
-// along it [Eich 1993]; CVODE has this for BDF alone.
-class CvodeBdf final : public Cvode<DenseSolver> {
+// BDF with Newton's method. After every step quaternions are normalised, and the estimate of their error loses the part
+// along them [Eich 1993]; CVODE has this for BDF alone.
+template <class Equations>
+class CvodeBdf final : public Cvode<Equations, DenseSolver> {
+  using Base = Cvode<Equations, DenseSolver>;
+  using Base::algebra_, Base::equations_, Base::memory_, Base::size;
+
  public:
-  CvodeBdf(const OptionValues& options, const HeavyTopParameters& parameters, double duration)
-      : Cvode(CV_BDF, options, parameters, duration) {
+  CvodeBdf(const OptionValues& options, const typename Equations::Data& data, double duration)
+      : Base(CV_BDF, options, data, duration) {
     require(CVodeSetLinearSolver(memory_.get(), algebra_.solver.get(), algebra_.matrix.get()),
             "CVodeSetLinearSolver");
-    require(CVodeSetJacFn(memory_.get(), jacobian), "CVodeSetJacFn");
-    require(CVodeSetProjFn(memory_.get(), project), "CVodeSetProjFn");
+    require(CVodeSetJacFn(memory_.get(), Base::jacobian), "CVodeSetJacFn");
+    if (!std::empty(equations_.quaternions()))
+      require(CVodeSetProjFn(memory_.get(), project), "CVodeSetProjFn");
   }
 
   OutsideCounts counts() const {
-    OutsideCounts counts = counts_of_steps();
+    OutsideCounts counts = Base::counts_of_steps();
     counts.jacobians = statistic(memory_, CVodeGetNumJacEvals);
     counts.factorizations = statistic(memory_, CVodeGetNumLinSolvSetups);
     counts.newton_iterations = statistic(memory_, CVodeGetNumNonlinSolvIters);
@@ -87,28 +99,35 @@ class CvodeBdf final : public Cvode<DenseSolver> {
   }
 
  private:
-  static int project(double, N_Vector y, N_Vector correction, double, N_Vector error, void*) {
-    const Vector4 p = numbers_of<size>(y).head<4>(), unit = p.normalized();
-    numbers_of<size>(correction) << unit - p, Vector3::Zero();
-    if (error != nullptr) {
-      auto along = numbers_of<size>(error).head<4>();
+  static int project(double, N_Vector y, N_Vector correction, double, N_Vector error, void* equations) {
+    auto change = numbers_of<size>(correction);
+    change.setZero();
+    for (const Eigen::Index place : static_cast<const Equations*>(equations)->quaternions()) {
+      const Vector4 p = numbers_of<size>(y).template segment<4>(place), unit = p.normalized();
+      change.template segment<4>(place) = unit - p;
+      if (error == nullptr) continue;
+      auto along = numbers_of<size>(error).template segment<4>(place);
       along -= along.dot(unit) * unit;
     }
-    return computed(unit);
+    return computed(change);
   }
 };
 
 // Adams-Moulton formulas with fixed-point iteration, as CVODE's guide has it for equations that are not stiff. Nothing
-// is normalised but what is read: the length of the quaternion, which has no effect, stays within the error of the
+// is normalised but what is read: the length of a quaternion, which has no effect, stays within the error of the
 // steps.
-class CvodeAdams final : public Cvode<FixedPointSolver> {
+template <class Equations>
+class CvodeAdams final : public Cvode<Equations, FixedPointSolver> {
+  using Base = Cvode<Equations, FixedPointSolver>;
+
  public:
-  CvodeAdams(const OptionValues& options, const HeavyTopParameters& parameters, double duration)
-      : Cvode(CV_ADAMS, options, parameters, duration) {
-    require(CVodeSetNonlinearSolver(memory_.get(), algebra_.solver.get()), "CVodeSetNonlinearSolver");
+  CvodeAdams(const OptionValues& options, const typename Equations::Data& data, double duration)
+      : Base(CV_ADAMS, options, data, duration) {
+    require(CVodeSetNonlinearSolver(Base::memory_.get(), Base::algebra_.solver.get()),
+            "CVodeSetNonlinearSolver");
   }
 
-  OutsideCounts counts() const { return counts_of_steps(); }
+  OutsideCounts counts() const { return Base::counts_of_steps(); }
 };
 
 }  // namespace

@@ -17,9 +17,6 @@ constexpr FailureFlags flags{IDA_CONV_FAIL, IDA_LSETUP_FAIL, IDA_LSOLVE_FAIL, ID
 // IDASetSuppressAlg].
 class Ida final : public SteppingSolver<StabilizedTop> {
  public:
-  template <class T>
-  using System = HeavyTopR3xS3<T>;
-
   Ida(const OptionValues& options, const HeavyTopParameters& parameters, double duration)
       : SteppingSolver(parameters, duration),
         rate_(new_vector<size>(context_, equations_.initial_rate())),
@@ -53,12 +50,6 @@ class Ida final : public SteppingSolver<StabilizedTop> {
       return IDASolve(memory_.get(), duration_, t, y_.get(), rate_.get(), IDA_ONE_STEP);
     });
   }
-
-  Configuration<System<double>> configuration() const {
-    return {y().head<3>(), y().segment<4>(3).normalized()};
-  }
-  Velocity<System<double>> velocity() const { return y().segment<6>(7); }
-  Multipliers<System<double>> multipliers() const { return y().segment<3>(13); }
 
   OutsideCounts counts() const {
     OutsideCounts counts;
@@ -103,7 +94,7 @@ class Ida final : public SteppingSolver<StabilizedTop> {
 }  // namespace
 
 OutsideRuns ida_runs() {
-  return runs_of<Ida>();
+  return {.run = &run<Ida>, .timed = &timed<Ida>};
 }
 
 }  // namespace liebench::outside

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,17 +13,30 @@
 #include "integrators/fits.h"
 #include "integrators/option.h"
 
-// Solvers from outside: what one reaches for where no Lie group method is at hand. They run on the heavy top alone,
-// each in the formulation whose unknowns it has, over a whole interval with steps of their own; errors are those of
-// that formulation, and the costs what the solver itself counts. They are SUNDIALS's, where this program was built with
-// it, and are listed and described where it was not.
+// Solvers from outside: what one reaches for where no Lie group method is at hand. They run on the heavy top, each in
+// the formulation whose unknowns it has, and those without constraints on scenes without joints, over a whole interval with
+// steps of their own; errors are those of that formulation or scene, and the costs what the solver itself counts. They
+// are SUNDIALS's, where this program was built with it, and are listed and described where it was not.
 
 namespace liebench {
 
-// Null where the program was built without the solver.
+struct AssembledScene;
+
+namespace detail {
+struct ObservedStep;
+}
+
+// Sees where each step of a scene ends: an element of the scene's group, stacked, and velocities.
+using SceneObserver =
+    std::function<void(const detail::ObservedStep&, const Eigen::VectorXd&, const Eigen::VectorXd&)>;
+
+// Null where the program was built without the solver; of scenes where the solver runs on none, too.
 struct OutsideRuns {
   RunResult (*run)(const RunRequest&, const HeavyTopReference&) = nullptr;
   std::unique_ptr<TimedRun> (*timed)(const RunRequest&, const HeavyTopReference&) = nullptr;
+  // Without errors, which its caller has by `SceneObserver`.
+  RunResult (*run_scene)(const RunRequest&, const AssembledScene&, const SceneObserver&) = nullptr;
+  std::unique_ptr<TimedRun> (*timed_scene)(const RunRequest&, const AssembledScene&) = nullptr;
 };
 
 struct OutsideMethod {
@@ -29,6 +44,7 @@ struct OutsideMethod {
   std::string_view summary;
   Fits fits;
   std::string_view formulation;  // of the heavy top
+  bool scenes;                   // those without joints, too
   std::span<const OptionInfo> options;
   std::string (*title)(const OptionValues&);
   ConvergenceOrders (*orders)(const OptionValues&);  // the highest, of a method that chooses its order

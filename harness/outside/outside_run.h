@@ -13,13 +13,12 @@
 
 // Runs of a solver from outside, as those of a method of integrators/list.h in harness/run_method.h. A Solver is
 //
-//   System<T>                                the formulation in which its errors are looked at
-//   Solver(options, parameters, duration)    made, and ready to step from t = 0; `options` of its method
-//   restart()                                ready again, and nothing is made anew
-//   step()                                   one step that it accepts; the last ends where the interval does
-//   time(), finished()
-//   configuration(), velocity(), multipliers()    what it holds now, the quaternion normalised
-//   counts()                                 since it was ready
+//   Equations                           what it integrates, with the type Data of what they are made of
+//   Solver(options, data, duration)     made, and ready to step from t = 0; `options` of its method
+//   restart()                           ready again, and nothing is made anew
+//   step()                              one step that it accepts; the last ends where the interval does
+//   time(), finished(), y()             what it holds now
+//   counts()                            since it was ready
 
 namespace liebench::outside {
 
@@ -29,25 +28,10 @@ struct StepEnd {
   std::string message{};
 };
 
-template <class Solver>
-std::vector<double> state_of(const Solver& solver) {
-  using Group = typename Solver::template System<double>::Group;
-  std::vector<double> state;
-  const auto append = [&](const auto& vector) { state.insert(state.end(), vector.begin(), vector.end()); };
-  append(Group::stacked(solver.configuration()));
-  append(solver.velocity());
-  append(solver.multipliers());
-  return state;
-}
-
-template <class Solver>
-RunResult run(const RunRequest& request, const HeavyTopReference& reference) {
-  using System = typename Solver::template System<double>;
+// All steps of `solver`. `observe(step, y)` sees where each of them ends.
+template <class Solver, class Observer>
+RunResult follow(Solver& solver, const RunRequest& request, const Observer& observe) {
   RunResult result;
-  const System system(reference.parameters());
-  const auto exact = detail::exact_solution<Solver::template System>(reference);
-  detail::Monitor<System> monitor(system, detail::drift_stride(request));
-  Solver solver(request.options, reference.parameters(), to_double(request.step_size));
   for (std::uint64_t n = 1; !solver.finished(); ++n) {
     const StepEnd end = n > request.steps ? StepEnd{Outcome::step_limit,
                                                     std::string(detail::explanation(Outcome::step_limit))}
@@ -60,14 +44,35 @@ RunResult run(const RunRequest& request, const HeavyTopReference& reference) {
                                   .message = end.message};
       break;
     }
-    const Extended t(solver.time());
-    monitor.observe({n, t, solver.finished()}, solver.configuration(), solver.velocity(),
-                    solver.multipliers(), exact(t));
+    observe(detail::ObservedStep{n, Extended(solver.time()), solver.finished()}, solver.y());
     result.steps = n;
   }
-  if (result.outcome == Outcome::ok) monitor.report(result);
   result.outside = solver.counts();
-  result.end_state = state_of(solver);
+  return result;
+}
+
+template <class Vector>
+void append(std::vector<double>& state, const Vector& numbers) {
+  state.insert(state.end(), numbers.begin(), numbers.end());
+}
+
+// On the heavy top, in the formulation Equations::System.
+template <class Solver>
+RunResult run(const RunRequest& request, const HeavyTopReference& reference) {
+  using Equations = typename Solver::Equations;
+  using System = typename Equations::template System<double>;
+  const System system(reference.parameters());
+  const auto exact = detail::exact_solution<Equations::template System>(reference);
+  detail::Monitor<System> monitor(system, detail::drift_stride(request));
+  Solver solver(request.options, reference.parameters(), to_double(request.step_size));
+  RunResult result = follow(solver, request, [&](const detail::ObservedStep& step, const auto& y) {
+    monitor.observe(step, Equations::configuration(y), Equations::velocity(y), Equations::multipliers(y),
+                    exact(step.t));
+  });
+  if (result.outcome == Outcome::ok) monitor.report(result);
+  append(result.end_state, System::Group::stacked(Equations::configuration(solver.y())));
+  append(result.end_state, Equations::velocity(solver.y()));
+  append(result.end_state, Equations::multipliers(solver.y()));
   return result;
 }
 
@@ -75,15 +80,15 @@ RunResult run(const RunRequest& request, const HeavyTopReference& reference) {
 template <class Solver>
 class TimedSolver final : public TimedRun {
  public:
-  TimedSolver(const RunRequest& request, const HeavyTopReference& reference)
-      : options_(request.options),
-        parameters_(reference.parameters()),
-        duration_(to_double(request.step_size)) {
+  using Data = typename Solver::Equations::Data;
+
+  TimedSolver(const RunRequest& request, const Data& data)
+      : options_(request.options), data_(data), duration_(to_double(request.step_size)) {
     start();
     while (!solver_->finished() && solver_->step().outcome == Outcome::ok) ++steps_;
   }
   bool start() override {
-    solver_.emplace(options_, parameters_, duration_);
+    solver_.emplace(options_, data_, duration_);
     return true;
   }
   bool follow() override {
@@ -96,18 +101,15 @@ class TimedSolver final : public TimedRun {
 
  private:
   OptionValues options_;
-  HeavyTopParameters parameters_;
+  Data data_;
   double duration_;
   std::uint64_t steps_ = 0;
   std::optional<Solver> solver_;
 };
 
 template <class Solver>
-OutsideRuns runs_of() {
-  return {&run<Solver>,
-          [](const RunRequest& request, const HeavyTopReference& reference) -> std::unique_ptr<TimedRun> {
-            return std::make_unique<TimedSolver<Solver>>(request, reference);
-          }};
+std::unique_ptr<TimedRun> timed(const RunRequest& request, const HeavyTopReference& reference) {
+  return std::make_unique<TimedSolver<Solver>>(request, reference.parameters());
 }
 
 }  // namespace liebench::outside

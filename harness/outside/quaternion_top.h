@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <array>
 
 #include "harness/outside/scaled_rotation.h"
 #include "problems/heavy_top.h"
@@ -16,6 +17,9 @@ namespace liebench::outside {
 // J about the tip. |p| stays what it is, and has no effect (scaled_rotation.h).
 class QuaternionTop {
  public:
+  template <class T>
+  using System = HeavyTopS3<T>;
+  using Data = HeavyTopParameters;
   static constexpr int size = 7;
   using Vector = Eigen::Matrix<double, size, 1>;
   using Matrix = Eigen::Matrix<double, size, size>;
@@ -31,18 +35,23 @@ class QuaternionTop {
   }
 
   const Vector& initial() const { return initial_; }
+  // Where quaternions begin in y.
+  static constexpr std::array<Eigen::Index, 1> quaternions() { return {0}; }
 
-  void derivative(Eigen::Ref<const Vector> y, Eigen::Ref<Vector> f) const {
+  static Configuration<System<double>> configuration(const Vector& y) { return y.head<4>().normalized(); }
+  static Velocity<System<double>> velocity(const Vector& y) { return y.tail<3>(); }
+  static Multipliers<System<double>> multipliers(const Vector&) { return {}; }
+
+  void derivative(double, Eigen::Ref<const Vector> y, Eigen::Ref<Vector> f) const {
     const Vector4 p = y.head<4>();
     const Vector3 omega = y.tail<3>();
-    f(0) = -0.5 * p.tail<3>().dot(omega);
-    f.segment<3>(1) = 0.5 * (p(0) * omega + Vector3(p.tail<3>()).cross(omega));
+    f.head<4>() = quaternion_rate(p, omega);
     const Vector3 momentum = inertia_ * omega;
     f.tail<3>() = inverse_ * (momentum.cross(omega) + center_of_mass_.cross(turn_back(p, weight_)));
   }
 
   // df/dy
-  void jacobian(Eigen::Ref<const Vector> y, Eigen::Ref<Matrix> J) const {
+  void jacobian(double, Eigen::Ref<const Vector> y, Eigen::Ref<Matrix> J) const {
     const Vector4 p = y.head<4>();
     const Vector3 omega = y.tail<3>();
     J.topLeftCorner<4, 4>() = 0.5 * imaginary_factor(omega);

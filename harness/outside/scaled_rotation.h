@@ -32,6 +32,13 @@ inline Matrix34 turn_back_derivative(const Vector4& p, const Vector3& w, const V
   return (D - 2.0 * turned * p.transpose()) / p.squaredNorm();
 }
 
+// R(p)^T
+inline Matrix3 rotation_back(const Vector4& p) {
+  Matrix3 R;
+  for (int i = 0; i < 3; ++i) R.col(i) = turn_back(p, Vector3::Unit(i));
+  return R;
+}
+
 // R(p) w, and its derivative.
 inline Vector4 conjugate(const Vector4& p) {
   return {p(0), -p(1), -p(2), -p(3)};
@@ -43,6 +50,14 @@ inline Matrix34 turn_derivative(const Vector4& p, const Vector3& w, const Vector
   Matrix34 D = turn_back_derivative(conjugate(p), w, turned);
   D.rightCols<3>() *= -1.0;
   return D;
+}
+
+// p (0, omega) / 2, the rate of p.
+inline Vector4 quaternion_rate(const Vector4& p, const Vector3& omega) {
+  const Vector3 u = p.tail<3>();
+  Vector4 rate;
+  rate << -0.5 * u.dot(omega), 0.5 * (p(0) * omega + u.cross(omega));
+  return rate;
 }
 
 // p (0, omega) = Q(p) omega = P(omega) p, both matrices.

@@ -23,6 +23,9 @@ namespace liebench::outside {
 // y' of the three multipliers is in no equation.
 class StabilizedTop {
  public:
+  template <class T>
+  using System = HeavyTopR3xS3<T>;
+  using Data = HeavyTopParameters;
   static constexpr int size = 20;
   static constexpr int differential = 13;  // x, p, u, Omega come first
   using Vector = Eigen::Matrix<double, size, 1>;
@@ -52,6 +55,12 @@ class StabilizedTop {
   // Consistent: F = 0, by the exact lambda.
   const Vector& initial() const { return initial_; }
   const Vector& initial_rate() const { return initial_rate_; }
+
+  static Configuration<System<double>> configuration(const Vector& y) {
+    return {y.head<3>(), y.segment<4>(3).normalized()};
+  }
+  static Velocity<System<double>> velocity(const Vector& y) { return y.segment<6>(7); }
+  static Multipliers<System<double>> multipliers(const Vector& y) { return y.segment<3>(13); }
 
   // F(y, y')
   void residual(Eigen::Ref<const Vector> y, Eigen::Ref<const Vector> rate, Eigen::Ref<Vector> F) const {
@@ -129,13 +138,6 @@ class StabilizedTop {
     double mu;
     Vector3 z;
   };
-
-  // R(p)^T
-  static Matrix3 rotation_back(const Vector4& p) {
-    Matrix3 R;
-    for (int i = 0; i < 3; ++i) R.col(i) = turn_back(p, Vector3::Unit(i));
-    return R;
-  }
 
   double mass_ = 0.0;
   Matrix3 inertia_;

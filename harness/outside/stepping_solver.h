@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "harness/outside/outside_run.h"
-#include "harness/outside/quaternion_top.h"
+#include "harness/outside/scene_run.h"
 #include "harness/outside/sundials.h"
 
 namespace liebench::outside {
@@ -16,10 +16,11 @@ struct FailureFlags {
   int first_of_equations, last_of_equations;  // the equations gave no finite numbers, from -8 downwards
 };
 
-// What the solvers here share: they step `Equations`, which give `size` and initial(), and keep a pointer to them.
-template <class Equations>
+// What the solvers here share: they step `Equations_`, which give `size` and initial(), and keep a pointer to them.
+template <class Equations_>
 class SteppingSolver {
  public:
+  using Equations = Equations_;
   static constexpr int size = Equations::size;
 
   SteppingSolver(const SteppingSolver&) = delete;
@@ -27,16 +28,15 @@ class SteppingSolver {
 
   double time() const { return t_; }
   bool finished() const { return finished_; }
+  auto y() const { return numbers_of<size>(y_.get()); }
 
  protected:
-  SteppingSolver(const HeavyTopParameters& parameters, double duration)
+  SteppingSolver(const typename Equations::Data& data, double duration)
       : context_(new_context()),
-        equations_(parameters),
+        equations_(data),
         duration_(duration),
         y_(new_vector<size>(context_, equations_.initial())) {}
   ~SteppingSolver() = default;
-
-  auto y() const { return numbers_of<size>(y_.get()); }
 
   // The initial values, for a solver that is made ready again.
   void back_to_start() {
@@ -82,30 +82,24 @@ int computed(const Numbers& numbers) {
   return numbers.allFinite() ? 0 : 1;
 }
 
-// A solver of the top as an ordinary differential equation, with the functions in the form in which CVODE and ARKODE
-// call them.
-class QuaternionSolver : public SteppingSolver<QuaternionTop> {
- public:
-  template <class T>
-  using System = HeavyTopS3<T>;
-
-  Configuration<System<double>> configuration() const { return y().head<4>().normalized(); }
-  Velocity<System<double>> velocity() const { return y().tail<3>(); }
-  Multipliers<System<double>> multipliers() const { return {}; }
-
+// A solver of ordinary differential equations with quaternions (quaternion_top.h, quaternion_scene.h), with the functions
+// in the form in which CVODE and ARKODE call them.
+template <class Equations>
+class QuaternionSolver : public SteppingSolver<Equations> {
  protected:
-  using SteppingSolver::SteppingSolver;
+  using SteppingSolver<Equations>::SteppingSolver;
+  using SteppingSolver<Equations>::size;
   ~QuaternionSolver() = default;
 
-  static int derivative(double, N_Vector y, N_Vector f, void* equations) {
+  static int derivative(double t, N_Vector y, N_Vector f, void* equations) {
     auto result = numbers_of<size>(f);
-    static_cast<const QuaternionTop*>(equations)->derivative(numbers_of<size>(y), result);
+    static_cast<const Equations*>(equations)->derivative(t, numbers_of<size>(y), result);
     return computed(result);
   }
-  static int jacobian(double, N_Vector y, N_Vector, SUNMatrix J, void* equations, N_Vector, N_Vector,
+  static int jacobian(double t, N_Vector y, N_Vector, SUNMatrix J, void* equations, N_Vector, N_Vector,
                       N_Vector) {
     auto result = numbers_of<size>(J);
-    static_cast<const QuaternionTop*>(equations)->jacobian(numbers_of<size>(y), result);
+    static_cast<const Equations*>(equations)->jacobian(t, numbers_of<size>(y), result);
     return computed(result);
   }
 };

@@ -57,19 +57,27 @@ inline Owned<SUNContext> new_context() {
   return Owned<SUNContext>(context);
 }
 
-// The numbers of a vector, of a square matrix.
+// The numbers of a vector, of a square matrix; `size` may be Eigen::Dynamic.
 template <int size>
 auto numbers_of(N_Vector v) {
-  return Eigen::Map<Eigen::Matrix<double, size, 1>>(N_VGetArrayPointer(v));
+  using Numbers = Eigen::Map<Eigen::Matrix<double, size, 1>>;
+  if constexpr (size == Eigen::Dynamic)
+    return Numbers(N_VGetArrayPointer(v), N_VGetLength(v));
+  else
+    return Numbers(N_VGetArrayPointer(v));
 }
 template <int size>
 auto numbers_of(SUNMatrix A) {
-  return Eigen::Map<Eigen::Matrix<double, size, size>>(SUNDenseMatrix_Data(A));
+  using Numbers = Eigen::Map<Eigen::Matrix<double, size, size>>;
+  if constexpr (size == Eigen::Dynamic)
+    return Numbers(SUNDenseMatrix_Data(A), SUNDenseMatrix_Rows(A), SUNDenseMatrix_Columns(A));
+  else
+    return Numbers(SUNDenseMatrix_Data(A));
 }
 
 template <int size>
 Owned<N_Vector> new_vector(const Owned<SUNContext>& context, const Eigen::Matrix<double, size, 1>& numbers) {
-  Owned<N_Vector> v(require(N_VNew_Serial(size, context.get()), "N_VNew_Serial"));
+  Owned<N_Vector> v(require(N_VNew_Serial(numbers.size(), context.get()), "N_VNew_Serial"));
   numbers_of<size>(v.get()) = numbers;
   return v;
 }

@@ -147,6 +147,8 @@ TEST_F(SceneCommandsTest, WrongOptionsAreRefusedBeforeAnythingRuns) {
            {{"simulate", scene("heavy_top"), "--option", "l=2"}, "allowed: KEY=VALUE"},
            {{"simulate", scene("heavy_top"), "--h", "-1"},
             "--h: \"-1\" is not allowed; allowed: a positive number"},
+           {{"simulate", scene("bushing_body"), "--integrator", "cvode_bdf"},
+            "cvode_bdf runs in studies alone (liebench run). What fits here: \"bliedf2nd\""},
            {{"simulate", scene("heavy_top"), "--h", "1e-12"}, "at most"},
        }) {
     const ProgramResult result = run(c.arguments);

@@ -51,7 +51,7 @@ TEST(QuaternionTopTest, IsTheTopOfS3OnUnitQuaternions) {
   const HeavyTopS3<double> system(general_top());
   QuaternionTop::Vector y = some_state(), f;
   y.head<4>().normalize();
-  top.derivative(y, f);
+  top.derivative(0.0, y, f);
   const Vector4 p = y.head<4>();
   const Vector3 omega = y.tail<3>();
   const Vector3 residual = system.momentum(p, Vector3(f.tail<3>())) + system.force(0.0, p, omega);
@@ -64,8 +64,8 @@ TEST(QuaternionTopTest, TheLengthOfTheQuaternionHasNoEffect) {
   const QuaternionTop top(general_top());
   QuaternionTop::Vector y = some_state(), longer = y, f, f_longer;
   longer.head<4>() *= 3.0;
-  top.derivative(y, f);
-  top.derivative(longer, f_longer);
+  top.derivative(0.0, y, f);
+  top.derivative(0.0, longer, f_longer);
   EXPECT_LE((f_longer.tail<3>() - f.tail<3>()).norm(), 100.0 * eps * f.norm());
   EXPECT_LE(std::abs(f.head<4>().dot(y.head<4>())), 10.0 * eps * f.norm()) << "p' is at right angles to p";
 }
@@ -73,10 +73,10 @@ TEST(QuaternionTopTest, TheLengthOfTheQuaternionHasNoEffect) {
 TEST(QuaternionTopTest, TheJacobianIsTheDerivative) {
   const QuaternionTop top(general_top());
   QuaternionTop::Matrix J;
-  top.jacobian(some_state(), J);
+  top.jacobian(0.0, some_state(), J);
   const auto D = differences(some_state(), [&](const QuaternionTop::Vector& y) {
     QuaternionTop::Vector f;
-    top.derivative(y, f);
+    top.derivative(0.0, y, f);
     return f;
   });
   EXPECT_LE((J - D).cwiseAbs().maxCoeff(), difference_error * J.cwiseAbs().maxCoeff());

@@ -85,7 +85,7 @@ TEST(StabilitySuite, AnUnknownCaseIsRefusedWithTheNearestName) {
 }
 
 // A method is in the suite with every choice of options that sets its members apart, or the suite would say nothing of
-// it. Solvers from outside run on the heavy top alone, and are none of it.
+// it. Solvers from outside run in studies alone, and are none of it.
 TEST(StabilitySuite, EveryMethodOfTheListIsAContestant) {
   std::set<std::string_view> names;
   for (const Contestant& contestant : contestants(true)) names.insert(contestant.method->name);
