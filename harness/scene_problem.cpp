@@ -8,10 +8,10 @@
 #include <memory>
 #include <mutex>
 #include <utility>
-#include <variant>
 
 #include "harness/errors.h"
 #include "harness/instances/run_time_scenes.h"
+#include "harness/methods.h"
 #include "harness/outside/outside_methods.h"
 #include "harness/problem_checks.h"
 #include "harness/references/scene_reference.h"
@@ -20,6 +20,7 @@
 #include "harness/scene_reader.h"
 #include "harness/scene_visit.h"
 #include "harness/simulate.h"
+#include "integrators/form.h"
 
 namespace liebench {
 
@@ -182,13 +183,10 @@ class PreparedScene final : public PreparedProblem {
     RunResult result = precision == Precision::extended
                            ? compared<Extended>(request, run_time_system<Extended>())
                            : counted(request);
-    std::visit(
-        [&]<class Options>(const Options& options) {
-          if constexpr (requires { options.form; })
-            result.solver =
-                with_scene(scene_, [&](const auto& system) { return newton_solver(system, options.form); });
-        },
-        detail::options_of(request));
+    if (has_option(*find_method(request.integrator), form_option.name)) {
+      const Form form = form_of(request.options.choice_or(form_option.name, ""));
+      result.solver = with_scene(scene_, [&](const auto& system) { return newton_solver(system, form); });
+    }
     return result;
   }
   std::unique_ptr<TimedRun> timed(std::string_view, const RunRequest& request) const override {

@@ -33,7 +33,7 @@ struct Sample {
 };
 
 struct SimulationPlan {
-  MethodOptions method;
+  MethodOptions method = BLieDF2nd::Options{};
   // Of a method that chooses its steps the length of the interval, and the most steps that it may choose (harness/run.h).
   double step_size = 0.0;
   std::uint64_t steps = 0;

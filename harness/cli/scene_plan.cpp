@@ -12,6 +12,7 @@
 #include "harness/run_method.h"
 #include "harness/scene_reader.h"
 #include "harness/study.h"
+#include "integrators/form.h"
 
 namespace liebench {
 
@@ -52,7 +53,7 @@ void check_steps(const MethodInfo& method, const ScenePlanOptions& options) {
 }
 
 // "k=3", "form=stabilized_index2": values as in a study.
-MethodOptions method_options(const MethodInfo* method, const ScenePlanOptions& options, bool constrained) {
+OptionValues method_options(const MethodInfo* method, const ScenePlanOptions& options, bool constrained) {
   std::vector<std::string> keys;
   for (const OptionInfo& info : method->options) keys.emplace_back(info.name);
   OptionValues values;
@@ -73,10 +74,7 @@ MethodOptions method_options(const MethodInfo* method, const ScenePlanOptions& o
   }
   for (const OptionInfo& info : method->options)
     if (!applies(info, constrained, values)) values.erase(info.name);
-  RunRequest request;
-  request.integrator = options.integrator;
-  request.options = values;
-  return detail::options_of(request);
+  return values;
 }
 
 }  // namespace
@@ -126,7 +124,12 @@ ScenePlan plan_scene(const ScenePlanOptions& options) {
   const bool constrained = !multiplier_names(scene).empty();
   const MethodInfo& method = method_of(options.integrator, constrained);
   check_steps(method, options);
-  result.plan.method = method_options(&method, options, constrained);
+  RunRequest request;
+  request.integrator = options.integrator;
+  request.options = method_options(&method, options, constrained);
+  result.could_be_safeguarded =
+      has_option(method, safeguard_option.name) && !request.options.boolean(safeguard_option.name);
+  result.plan.method = detail::options_of(request);
   result.plan.chooses_steps = method.chooses_steps;
   if (method.chooses_steps) {
     result.plan.step_size = t_end;

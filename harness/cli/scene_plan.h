@@ -24,6 +24,7 @@ struct ScenePlanOptions {
 struct ScenePlan {
   AssembledScene scene;
   SimulationPlan plan;
+  bool could_be_safeguarded = false;  // the method has a safeguard, which is off
 };
 
 // Reads and assembles the scene and says on standard error what was done to it. Throws InputError.

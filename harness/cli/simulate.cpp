@@ -105,17 +105,9 @@ void run_simulation(const SimulateOptions& options) {
   });
   if (std::fflush(file) != 0) throw MachineError(options.out + ": cannot write");
   if (!failure) return;
-  const bool could_be_safeguarded = std::visit(
-      [](const auto& method) {
-        if constexpr (requires { method.safeguard; })
-          return !method.safeguard;
-        else
-          return false;
-      },
-      plan.method);
   progress.message(fmt::format("stopped at t = {:.6g} s, step {}: {}{}", failure->time, failure->step,
                                failure->message,
-                               could_be_safeguarded ? "; --option safeguard=true may help" : ""));
+                               made.could_be_safeguarded ? "; --option safeguard=true may help" : ""));
 }
 
 }  // namespace
