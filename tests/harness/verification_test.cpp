@@ -42,6 +42,8 @@ RunResult as_expected(const Json& record, const RunSpec& run, bool constrained) 
   };
   RunResult result = sample_result(error("q", "end_relative"), error("v", "end_relative"),
                                    constrained ? error("lambda", "end_relative") : 0.0, constrained);
+  result.q->max_absolute = error("q", "max_absolute");
+  result.v->max_absolute = error("v", "max_absolute");
   if (result.lambda) result.lambda->max_absolute = error("lambda", "max_absolute");
   return result;
 }
