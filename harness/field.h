@@ -6,7 +6,7 @@
 #include "harness/record_row.h"
 #include "plots/figure.h"
 
-// The whole field of methods on the heavy top, solvers from outside among them: the study `field` in a picture and a page
+// The whole field of methods on the heavy top and a top on mounts, solvers from outside among them: the study `field` in a picture and a page
 // (docs/field.md has it in words).
 
 namespace liebench {

@@ -247,8 +247,9 @@ std::string integrators_page() {
       "in an audit. A method that chooses its steps covers the same time; its counts are over the steps that "
       "it accepted, whose length is another.\n"
       "Operations are those in floating point, all kinds together.\n\n{}\n{}"
-      "## Solvers from outside\n\nOn the heavy top alone, in the formulation whose unknowns they have; where "
-      "the program was built with SUNDIALS.\n\n{}",
+      "## Solvers from outside\n\nOf SUNDIALS, where the program was built with it. On the heavy top they "
+      "run in "
+      "the formulation whose unknowns they have.\n\n{}",
       step_size, counted_steps, overview, sheets, to_markdown(outside));
 }
 

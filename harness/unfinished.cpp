@@ -35,22 +35,22 @@ UnfinishedRecords::UnfinishedRecords(std::filesystem::path folder, const std::ve
   for (const RunSpec& run : runs) {
     if (parts_.contains(run.study)) continue;
     const std::filesystem::path file = part_file(folder_, run.study);
-    const bool newer = is_newer_than_program(file);
-    parts_.emplace(run.study, Part{RecordFile(file), newer});
+    if (!is_newer_than_program(file)) std::filesystem::remove(file);
+    parts_.emplace(run.study, RecordFile(file));
   }
 }
 
 std::optional<Json> UnfinishedRecords::record(const RunSpec& run) const {
-  const Part& part = parts_.at(run.study);
+  const RecordFile& part = parts_.at(run.study);
   const std::string key = run.key();
-  if (!part.of_this_program || !part.file.has(key)) return std::nullopt;
-  Json record = part.file.record(key);
+  if (!part.has(key)) return std::nullopt;
+  Json record = part.record(key);
   if (without_date(record.at("provenance")) != provenance_) return std::nullopt;
   return record;
 }
 
 void UnfinishedRecords::append(const RunSpec& run, const Json& record) {
-  parts_.at(run.study).file.append(record);
+  parts_.at(run.study).append(record);
 }
 
 void UnfinishedRecords::remove() {

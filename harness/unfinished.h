@@ -15,25 +15,19 @@ namespace liebench {
 // folder. A job that is killed goes on from there; one that ends removes them.
 class UnfinishedRecords {
  public:
-  // Opens or creates the files. Throws as RecordFile does.
+  // Opens or creates the files; one that is older than the program is made anew. Throws as RecordFile does.
   UnfinishedRecords(std::filesystem::path folder, const std::vector<RunSpec>& runs);
 
-  // The record of a run, if this program made it: one of another commit, compiler or machine, or older than the program's file,
-  // is no part of this job.
+  // The record of a run, if this program made it: one of another commit, compiler or machine is no part of this job.
   std::optional<Json> record(const RunSpec& run) const;
   // Appends a record, or a new version of one that is there.
   void append(const RunSpec& run, const Json& record);
   void remove();
 
  private:
-  struct Part {
-    RecordFile file;
-    bool of_this_program;
-  };
-
   std::filesystem::path folder_;
   Json provenance_;
-  std::map<std::string, Part> parts_;  // by study
+  std::map<std::string, RecordFile> parts_;  // by study
 };
 
 }  // namespace liebench

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
 
 #include "harness/cli/commands.h"
 #include "harness/cost_report.h"
@@ -112,6 +115,7 @@ int figures(const FigureOptions& options) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (auto record = unfinished.record(runs[i])) {
       records[i] = *std::move(record);
+      if (options.short_form) records[i].erase("time");
       continue;
     }
     missing.push_back(runs[i]);

@@ -27,7 +27,8 @@ struct Contestant {
   bool is(std::string_view integrator) const { return method->name == integrator; }
   // "explicit", "implicit" or "" where no correction term is computed.
   std::string_view correction() const;
-  // Whether the method has the option `safeguard`, for it solves an equation in each step.
+  // Whether the method has the option `safeguard`. (bliedf2nd_variable needs none: it always goes on damped where the plain iteration
+  // fails.)
   bool can_be_safeguarded() const;
   // Of a method without the option "form": that whose constraints its steps fulfil. SHAKELie has Phi = 0 alone, RATTLie the hidden
   // constraint too, half-explicit methods that one alone: what they declare.

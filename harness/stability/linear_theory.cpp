@@ -7,6 +7,8 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "integrators/bdf_coefficients.h"
@@ -110,6 +112,12 @@ struct Alpha {
         gamma((3.0 - rho) / (2.0 * (rho + 1.0))) {}
 };
 
+// Of generalized-alpha, the last of those that the theory knows.
+double known_rho_inf(const Contestant& method) {
+  if (const std::optional<double> rho = method.rho_inf()) return *rho;
+  throw std::logic_error("no linear theory of " + method.name + ": harness/stability/linear_theory.cpp");
+}
+
 }  // namespace
 
 std::optional<Complex> stability_function(const Contestant& method, Complex z) {
@@ -142,7 +150,7 @@ double spectral_radius(const Contestant& method, Complex z) {
     // A real system of second order has z and its conjugate; both polynomials have roots of the same sizes.
     return bdf_radius(method.steps(), z);
   }
-  const Alpha p(*method.rho_inf());
+  const Alpha p(known_rho_inf(method));
   const double damping = -2.0 * z.real(), stiffness = std::norm(z);  // 2 xi Omega and Omega^2
   // Unknowns at n + 1 (x, h x', h^2 a, h^2 x''), with h^2 x'' = -damping h x' - stiffness x at n + 1 and at n.
   Eigen::Matrix4d left, right;
@@ -200,7 +208,7 @@ double velocity_spectral_radius(const Contestant& method, Complex z) {
   if (is_verlet(method)) return 1.0;
   if (method.is("faltinsen_adams")) return adams_radius(method.steps(), z);
   if (method.options.has("k")) return bdf_radius(method.steps(), z);
-  const Alpha p(*method.rho_inf());
+  const Alpha p(known_rho_inf(method));
   // (v, h a, h v')
   Eigen::Matrix3cd left, right;
   left << 1.0, -p.gamma, 0.0,                    //

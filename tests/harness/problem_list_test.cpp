@@ -261,7 +261,7 @@ TEST(ListedProblem, RefusesParametersWithTheirPlaceAndWhatIsAllowed) {
   EXPECT_NE(refusal(R"({"inertias": [1, 2, 3]})").find("did you mean \"inertia\"?"), std::string::npos);
 }
 
-// Solvers from outside know the heavy top alone, in whatever formulation another problem is.
+// Solvers from outside know the heavy top and scenes, in whatever formulation another problem is.
 TEST(ListedProblem, IsNotForSolversFromOutside) {
   for (const MethodInfo& method : methods())
     if (method.outside != nullptr) {

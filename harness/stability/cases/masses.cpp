@@ -127,7 +127,8 @@ Finding examine(const Plan& plan, const Contestant& method, const std::string& f
           "nothing";
     }
   }
-  if (!method.can_be_safeguarded() && !method.is("half_explicit") && plan.condition > 1e8) {
+  if (!method.can_be_safeguarded() && !method.chooses_steps() && !method.is("half_explicit") &&
+      plan.condition > 1e8) {
     finding.at_worst = Grade::failed;
     finding.reason += fmt::format(
         "; masses of a ratio of {:.0e} leave residuals that the plain iteration takes for unsolved",

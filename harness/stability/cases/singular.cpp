@@ -68,7 +68,7 @@ Finding examine(const Plan& plan, const Contestant& method, const std::string& f
     finding.measured["steps"] = double(end.reached);
     finding.reason += "; " + plan.reason;
   }
-  if (plan.flat && !method.can_be_safeguarded()) {
+  if (plan.flat && !method.can_be_safeguarded() && !method.chooses_steps()) {
     finding.at_worst = Grade::failed;
     finding.reason += "; nothing leads an iteration without the safeguard through them";
   }
