@@ -3,12 +3,6 @@
 
 namespace liebench {
 
-template RunResult run_heavy_top<HeavyTopSO3, double>(const RunRequest&, const HeavyTopReference&);
-template std::unique_ptr<TimedRun> timed_heavy_top<HeavyTopSO3>(const RunRequest&, const HeavyTopReference&);
-
-template RunResult run_heavy_top<HeavyTopS3, double>(const RunRequest&, const HeavyTopReference&);
-template std::unique_ptr<TimedRun> timed_heavy_top<HeavyTopS3>(const RunRequest&, const HeavyTopReference&);
-
 template RunResult run_heavy_top<HeavyTopR3xSO3, double>(const RunRequest&, const HeavyTopReference&);
 template std::unique_ptr<TimedRun> timed_heavy_top<HeavyTopR3xSO3>(const RunRequest&,
                                                                    const HeavyTopReference&);
@@ -17,7 +11,6 @@ template RunResult run_heavy_top<HeavyTopR3xS3, double>(const RunRequest&, const
 template std::unique_ptr<TimedRun> timed_heavy_top<HeavyTopR3xS3>(const RunRequest&,
                                                                   const HeavyTopReference&);
 
-template StepperMaker<HeavyTopSO3<double>> any_stepper;
 template StepperMaker<HeavyTopR3xSO3<double>> any_stepper;
 
 }  // namespace liebench
