@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include "harness/scene_reader.h"
 #include "harness/stability/cases/cases.h"
